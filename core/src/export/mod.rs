@@ -1,0 +1,1 @@
+//! Files from results: bytes in memory, no geometry decisions, no file system.

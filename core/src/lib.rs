@@ -1,0 +1,25 @@
+//! From a scanned limb, a fabric's stiffness and wanted normal pressures to the flat pattern of
+//! an elastic brace that, by its model, presses so when worn.
+//!
+//! The method is Wang & Tang, *Woven Model Based Geometric Design of Elastic Medical Braces*.
+//! `ARCHITECTURE.md` is the map of this crate; `pipeline.rs` is the whole flow on one page.
+
+#![forbid(unsafe_code)]
+
+pub mod design;
+pub mod export;
+pub mod fit;
+pub mod geometry;
+pub mod mapping;
+pub mod parameterize;
+pub mod parameters;
+pub mod pattern;
+pub mod pressure;
+pub mod progress;
+pub mod report;
+pub mod samples;
+pub mod seams;
+pub mod surface;
+pub mod units;
+pub mod warning;
+pub mod weave;

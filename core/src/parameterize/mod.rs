@@ -1,0 +1,1 @@
+//! The initial planar parameterization Ω.

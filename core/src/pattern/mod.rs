@@ -1,0 +1,1 @@
+//! The pattern: outline, seams and their figures.

@@ -1,0 +1,1 @@
+//! Pressure and strain: the formulas, both ways.

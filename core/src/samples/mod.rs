@@ -1,0 +1,1 @@
+//! Procedural limbs of real size, for demonstrations and tests.

@@ -1,0 +1,1 @@
+//! Region and seams: from a validated surface to a disk.

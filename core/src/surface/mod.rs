@@ -1,0 +1,9 @@
+//! Raw triangles become a validated surface once; later stages cannot be handed anything else.
+
+mod index;
+mod raw;
+mod topology;
+
+pub use index::{HalfEdgeId, TriangleId, VertexId};
+pub use raw::RawMesh;
+pub use topology::{BoundaryLoop, Surface, TopologyError};

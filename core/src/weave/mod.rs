@@ -1,0 +1,1 @@
+//! The woven model Γ: a spring mesh on the surface.
