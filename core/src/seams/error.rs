@@ -119,7 +119,7 @@ pub enum SeamError {
     },
     /// The seams leave the tube uncut.
     #[error(
-        "the seams do not open the tube: no seam reaches the {girth:.0} mm long end near ({}) ; draw a seam from one end of the tube to the other, or give no seams to have it placed automatically",
+        "the seams do not open the tube: no seam reaches the {girth:.0} mm long end near ({}): draw a seam from one end of the tube to the other, or give no seams to have it placed automatically",
         place(*.near)
     )]
     EndNotReached {
@@ -127,6 +127,17 @@ pub enum SeamError {
         girth: f64,
         /// Its middle, in mm.
         near: DVec3,
+    },
+    /// The seams begin at both ends of the tube and do not meet.
+    #[error(
+        "the seams do not open the tube: seams begin at both ends, near ({}) and ({}), but do not meet; join them into one from end to end",
+        place(*.proximal), place(*.distal)
+    )]
+    EndsNotJoined {
+        /// Middle of one end, in mm.
+        proximal: DVec3,
+        /// Middle of the other end, in mm.
+        distal: DVec3,
     },
     /// The seams cut the surface apart.
     #[error(
