@@ -148,15 +148,8 @@ impl Shape {
             .filter(|&h| sewing.partner(h).is_some())
             .flat_map(|h| [surface.from(h), surface.to(h)])
             .collect();
-        let mut shape = Self {
-            loops,
-            lengths,
-            loop_of,
-            ends: None,
-            tube: None,
-            sewn,
-            warnings: Vec::new(),
-        };
+        let mut shape =
+            Self { loops, lengths, loop_of, ends: None, tube: None, sewn, warnings: Vec::new() };
         let mut order: Vec<usize> = (0..shape.loops.len()).collect();
         order.sort_by(|&a, &b| shape.lengths[b].total_cmp(&shape.lengths[a]).then(a.cmp(&b)));
         if let [proximal, distal, ..] = order[..] {
@@ -183,7 +176,12 @@ impl Shape {
 
     /// Whether the outer edge turns nearly once round as a disk's does and the inner one nearly
     /// once back, as a cut-out's does; the edges of a tube do not turn (Gauss–Bonnet).
-    fn is_flat_ring(&self, surface: &Surface, around: &[Vec<HalfEdgeId>], ends: [usize; 2]) -> bool {
+    fn is_flat_ring(
+        &self,
+        surface: &Surface,
+        around: &[Vec<HalfEdgeId>],
+        ends: [usize; 2],
+    ) -> bool {
         let turn = |i: usize| -> f64 {
             around[i]
                 .iter()
@@ -234,8 +232,8 @@ impl Cutter {
             let Some((path, taut)) = space.across(proximal, distal)? else { continue };
             self.carve(&path, &taut)?;
             let chain = &self.chains[self.chains.len() - 1];
-            let [first, last] =
-                [chain.first(), chain.last()].map(|v| v.map_or(DVec3::ZERO, |&v| self.mesh.point(v)));
+            let [first, last] = [chain.first(), chain.last()]
+                .map(|v| v.map_or(DVec3::ZERO, |&v| self.mesh.point(v)));
             return Ok(Warning::at(
                 "seam_automatic",
                 format!(
@@ -277,11 +275,7 @@ impl Cutter {
         result
     }
 
-    fn carve(
-        &mut self,
-        path: &Path,
-        taut: &Taut,
-    ) -> Result<(), SeamError> {
+    fn carve(&mut self, path: &Path, taut: &Taut) -> Result<(), SeamError> {
         let chain = carve(&mut self.mesh, path, taut, &self.pinned)?;
         // Where the new chain crosses an edge of an older one, that edge has become two.
         for old in &mut self.chains {
@@ -605,12 +599,22 @@ mod tests {
                 .left
                 .iter()
                 .map(|&v| cut.disk.point(v))
-                .map(|p| (p.y.atan2(p.x) - cut.disk.point(seam.left[0]).to_array()[1].atan2(
-                    cut.disk.point(seam.left[0]).x) + 9.0 * PI).rem_euclid(TAU) - PI)
+                .map(|p| {
+                    (p.y.atan2(p.x)
+                        - cut.disk.point(seam.left[0]).to_array()[1]
+                            .atan2(cut.disk.point(seam.left[0]).x)
+                        + 9.0 * PI)
+                        .rem_euclid(TAU)
+                        - PI
+                })
                 .collect();
             let aside = angles.iter().map(|a| 40.0 * a.abs()).fold(0.0, f64::max);
-            println!("{mesh:?}: length {long:.6}, aside {aside:.6} mm, points {}, corner {:.2} -> {:.2} deg",
-                seam.left.len(), worst(&s).to_degrees(), worst(&cut.disk).to_degrees());
+            println!(
+                "{mesh:?}: length {long:.6}, aside {aside:.6} mm, points {}, corner {:.2} -> {:.2} deg",
+                seam.left.len(),
+                worst(&s).to_degrees(),
+                worst(&cut.disk).to_degrees()
+            );
             assert!((long / 200.0 - 1.0).abs() < 1e-3, "{mesh:?} {long}");
         }
     }

@@ -6,6 +6,7 @@
 mod carve;
 mod cut;
 mod error;
+mod markers;
 mod path;
 mod region;
 mod sewing;
@@ -17,5 +18,6 @@ mod fixtures;
 
 pub use cut::{CutSurface, Ends, open_to_disk};
 pub use error::{REACH_MM, SeamError};
+pub use markers::{Markers, place};
 pub use region::{Clipped, clip};
 pub use sewing::Seam;

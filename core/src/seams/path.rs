@@ -371,12 +371,7 @@ impl<'a> Space<'a> {
     }
 
     /// Ends the path where it first touches the loop on which it is to end.
-    fn trim(
-        &self,
-        path: &mut Path,
-        taut: &mut Taut,
-        shore: &[VertexId],
-    ) -> Result<(), SeamError> {
+    fn trim(&self, path: &mut Path, taut: &mut Taut, shore: &[VertexId]) -> Result<(), SeamError> {
         while let Some(&touch) = taut.bends.iter().find(|bend| shore.contains(&bend.vertex)) {
             path.crossings.truncate(touch.first);
             path.end = End::Vertex(touch.vertex);
@@ -423,12 +418,7 @@ impl<'a> Space<'a> {
     }
 
     /// Turns round a vertex, clockwise (`forward`) or back, until the boundary.
-    fn to_shore(
-        &self,
-        mut h: HalfEdgeId,
-        forward: bool,
-        path: &mut Path,
-    ) -> Option<HalfEdgeId> {
+    fn to_shore(&self, mut h: HalfEdgeId, forward: bool, path: &mut Path) -> Option<HalfEdgeId> {
         while let Some(twin) = self.mesh.twin(h) {
             if !self.allowed(twin.triangle()) {
                 return None;

@@ -104,9 +104,9 @@ fn clip_once(work: &mut Triangulation, point: DVec3, normal: DVec3) -> Vec<bool>
 }
 
 fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
-    points.iter().fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| {
-        (low.min(p), high.max(p))
-    })
+    points
+        .iter()
+        .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
 }
 
 fn keep_largest(surface: &Surface) -> Result<Clipped, SeamError> {

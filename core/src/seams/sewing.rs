@@ -132,11 +132,8 @@ impl<'a> Sewing<'a> {
     /// The half-edge of the same seam after or before `h`, unless the seam ends there.
     fn neighbour(&self, h: HalfEdgeId, after: bool) -> Option<HalfEdgeId> {
         let g = self.partner(h)?;
-        let (n, m) = if after {
-            (self.next(h), self.previous(g))
-        } else {
-            (self.previous(h), self.next(g))
-        };
+        let (n, m) =
+            if after { (self.next(h), self.previous(g)) } else { (self.previous(h), self.next(g)) };
         // At the tip of a slit the two sides follow one another.
         (n != g && self.partner(n) == Some(m)).then_some(n)
     }

@@ -106,8 +106,9 @@ fn locate(mesh: &Triangulation, end: End, t: TriangleId, flat: &[DVec2; 3]) -> O
             let k = mesh.triangles()[t.index()].iter().position(|&w| w == v)?;
             Some(flat[k])
         }
-        End::Boundary(h, part) => (h.triangle() == t)
-            .then(|| flat[h.corner()].lerp(flat[(h.corner() + 1) % 3], part)),
+        End::Boundary(h, part) => {
+            (h.triangle() == t).then(|| flat[h.corner()].lerp(flat[(h.corner() + 1) % 3], part))
+        }
     }
 }
 
@@ -131,10 +132,12 @@ pub(super) fn pull(mesh: &Triangulation, path: &Path) -> Result<Taut, SeamError>
     }
     let mut bends = Vec::with_capacity(corners.len());
     for (k, &(portal, left, place)) in corners.iter().enumerate() {
-        let at = |i: usize| if left { mesh.to(path.crossings[i]) } else { mesh.from(path.crossings[i]) };
+        let at =
+            |i: usize| if left { mesh.to(path.crossings[i]) } else { mesh.from(path.crossings[i]) };
         let vertex = at(portal);
-        let touches =
-            |i: &usize| mesh.from(path.crossings[*i]) == vertex || mesh.to(path.crossings[*i]) == vertex;
+        let touches = |i: &usize| {
+            mesh.from(path.crossings[*i]) == vertex || mesh.to(path.crossings[*i]) == vertex
+        };
         let first = (0..=portal).rev().take_while(touches).last().unwrap_or(portal);
         let last = (portal..path.crossings.len()).take_while(touches).last().unwrap_or(portal);
         let turn = (place - knots[k]).angle_to(knots[k + 2] - place).abs();
