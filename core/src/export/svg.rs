@@ -122,7 +122,7 @@ fn cut_line(drawing: &Drawing, sheet: &Sheet) -> Group {
 }
 
 fn sew_line(drawing: &Drawing, sheet: &Sheet) -> Group {
-    let mut all = group("sew_line", "#c00000").set("stroke-dasharray", "3 1.5");
+    let mut all = group("sew_line", "#e00000").set("stroke-dasharray", "4 4");
     for (i, seam) in drawing.seams.iter().enumerate() {
         let i = i + 1;
         let side = |points: &[DVec2], name: &str| {
@@ -249,8 +249,8 @@ fn lettering(drawing: &Drawing, grain: Option<Stretch>, sheet: &Sheet) -> Group 
 /// The wanted value, right of its mark, or left of it where the piece ends on the right.
 fn point_label(drawing: &Drawing, sheet: &Sheet, place: DVec2, words: &str) -> Text {
     let width = LETTER_WIDTH * SMALL * words.chars().count() as f64;
-    let offset = 3.0 + width / 2.0;
-    let fits = |way: f64| inside(drawing, place + DVec2::new(way * (3.0 + width), 0.0));
+    let offset = 3.5 + width / 2.0;
+    let fits = |way: f64| inside(drawing, place + DVec2::new(way * (3.5 + width), 0.0));
     let way = if !fits(1.0) && fits(-1.0) { -1.0 } else { 1.0 };
     label(sheet.place(place + DVec2::new(way * offset, 0.0)), SMALL, 0.0, words)
 }
