@@ -51,7 +51,8 @@ fn check_object(
         check(value, wanted, &place)?;
     }
     let required = schema.get("required").and_then(Value::as_array).into_iter().flatten();
-    for key in required.filter_map(Value::as_str).filter(|key| !object.contains_key(*key)) {
+    let mut required = required.filter_map(Value::as_str);
+    if let Some(key) = required.find(|key| !object.contains_key(*key)) {
         let place = if path.is_empty() { key.to_owned() } else { format!("{path}.{key}") };
         let remedy = properties.get(key).and_then(description).unwrap_or("give it");
         return Err(DesignError::Missing { path: place, remedy: remedy.to_owned() });
