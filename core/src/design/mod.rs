@@ -1,7 +1,14 @@
 //! What the designer wants of one brace, in the core's units (mm, N/mm, kPa).
 
+mod error;
+mod file;
+mod schema;
+
 use glam::DVec3;
 use serde::Serialize;
+
+pub use error::DesignError;
+pub use file::{parse, schema};
 
 use crate::units::LengthUnit;
 
@@ -32,7 +39,7 @@ pub struct Design {
 }
 
 /// A linear woven fabric.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Fabric {
     /// Its name.
     pub name: String,
@@ -119,7 +126,7 @@ pub struct Limits {
 }
 
 /// What is written on the piece.
-#[derive(Debug, Clone, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Piece {
     /// Name of the piece.
     pub name: String,

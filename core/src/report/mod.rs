@@ -1,1 +1,15 @@
-//! The report: every figure of a run as data.
+//! The report: every figure of a run as data, and the few of them that a terminal shows.
+
+mod check;
+#[cfg(test)]
+mod example;
+mod json;
+mod table;
+
+pub use check::{CheckReport, CurvatureReport, Defect, LoopReport};
+pub use json::{
+    ENERGY_UNIT, FitReport, GirthReport, HistoryEntry, ParameterValues, PatternReport,
+    PressureReport, Reason, Report, SeamReport, StrainDatum, StrainFunctionReport, StrainRow,
+    SurfaceReport,
+};
+pub use table::pressure_table;
