@@ -1,7 +1,5 @@
 //! A mesh on its way to be a [`Surface`](super::Surface), and the steps of the way.
 
-use std::collections::HashMap;
-
 use glam::DVec3;
 
 use super::connectivity::{Edges, Sets, components, start};
@@ -221,31 +219,45 @@ impl Mesh {
     pub(super) fn take_broken_triangles(&mut self, thinnest: f64) -> Vec<Defect> {
         let mut defects = Vec::new();
         let mut keep = vec![true; self.triangles.len()];
-        let mut first_with: HashMap<[usize; 3], usize> =
-            HashMap::with_capacity(self.triangles.len());
+        let first_with = self.first_with_same_corners();
         for t in 0..self.triangles.len() {
             let corners = self.triangles[t];
             let [a, b, c] = self.corners(t);
             let middle = (a + b + c) / 3.0;
             let doubled = (b - a).cross(c - a).length();
             let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
-            let mut sorted = corners;
-            sorted.sort_unstable();
+            let first = first_with[t];
             if doubled <= thinnest * longest {
                 defects.push(Defect::degenerate(self.faces[t], &corners, middle));
                 keep[t] = false;
-            } else if let Some(&first) = first_with.get(&sorted) {
+            } else if first < t {
                 let faces = [self.faces[first], self.faces[t]];
+                let mut sorted = corners;
+                sorted.sort_unstable();
                 defects.push(Defect::duplicate(faces, &sorted, middle));
                 keep[t] = false;
-            } else {
-                first_with.insert(sorted, t);
             }
         }
         if !defects.is_empty() {
             self.retain(&keep);
         }
         defects
+    }
+
+    /// For every triangle the first with the same corners in any order.
+    fn first_with_same_corners(&self) -> Vec<usize> {
+        let sorted = |(t, corners): (usize, &[usize; 3])| {
+            let mut corners = *corners;
+            corners.sort_unstable();
+            (corners, t)
+        };
+        let mut by_corners: Vec<_> = self.triangles.iter().enumerate().map(sorted).collect();
+        by_corners.sort_unstable();
+        let mut first = vec![0; self.triangles.len()];
+        for same in by_corners.chunk_by(|a, b| a.0 == b.0) {
+            same.iter().for_each(|&(_, t)| first[t] = same[0].1);
+        }
+        first
     }
 
     pub(super) fn non_manifold_edges(&self, edges: &Edges) -> Vec<Defect> {

@@ -35,6 +35,9 @@ const FARTHEST: f64 = 1e9;
 /// diagonal: that is how exactly 32-bit coordinates place points that should lie on a line.
 const THIN: f64 = 1e-7;
 
+/// No limb is larger, in mm: a stray crumb far away must not make tolerances coarse.
+const LARGEST_LIMB: f64 = 2000.0;
+
 /// The half-edges must be numbered by 32 bits.
 const MOST: usize = (u32::MAX / 3) as usize;
 
@@ -75,7 +78,7 @@ pub fn validate(raw: &RawMesh, options: &SurfaceOptions) -> Result<Validated, Su
     check_elements(raw, &points)?;
     let mut mesh = Mesh::split(raw, points)?;
     mesh.report_unused(raw, &mut warnings);
-    let diagonal = mesh.diagonal();
+    let diagonal = mesh.diagonal().min(LARGEST_LIMB);
     let tolerance = (weld::WELD * diagonal).max(2.0 * GRID);
     let thinnest = (THIN * diagonal).max(2.0 * GRID);
     mesh.weld(tolerance, &mut warnings);

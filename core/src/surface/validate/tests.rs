@@ -475,6 +475,16 @@ fn copies_a_rounding_apart_are_welded_and_what_collapses_is_said() {
 }
 
 #[test]
+fn a_crumb_far_away_does_not_coarsen_the_welding() {
+    let far = |x: f64| DVec3::new(1e8 + x, 0.0, x * x);
+    let crumb = RawMesh::from_triangles(vec![far(0.0), far(1.0), far(2.0)], &[[0, 1, 2]]);
+    let raw = soup(&together(&tube(4), &crumb));
+    let valid = validate(&raw, &SurfaceOptions { keep_largest: true, ..OPTIONS }).unwrap();
+    assert_eq!(valid.surface.vertex_count(), 100);
+    assert_eq!(codes(&valid), ["welded", "components_dropped"]);
+}
+
+#[test]
 fn a_cut_given_by_index_stays_open_and_is_said() {
     let valid = validate(&grid(20, 6, false), &OPTIONS).unwrap();
     assert_eq!(shape_of(&valid.surface), Shape::Disk);
