@@ -1,43 +1,89 @@
 //! Which triangles of an unvalidated mesh meet at which edge, and what hangs together.
 
+/// Half-edges by a vertex, and there by another: linear time for all but the vertices of very
+/// many edges, where hashing or sorting as a whole takes several times as long on large scans.
+pub(super) struct Buckets {
+    /// Where each vertex's items begin, and the end.
+    starts: Vec<usize>,
+    /// The other vertex and the half-edge; sorted within a bucket.
+    items: Vec<(u32, u32)>,
+}
+
+impl Buckets {
+    /// The items `(vertex, other vertex, half-edge)` by vertex.
+    pub(super) fn new(
+        vertices: usize,
+        items: impl Iterator<Item = (usize, usize, usize)> + Clone,
+    ) -> Self {
+        // Validation refuses meshes with more half-edges than 32 bits can number.
+        let narrow = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
+        let mut starts = vec![0; vertices + 1];
+        for (v, ..) in items.clone() {
+            starts[v + 1] += 1;
+        }
+        for v in 0..vertices {
+            starts[v + 1] += starts[v];
+        }
+        let mut sorted = vec![(0, 0); starts[vertices]];
+        let mut next = starts.clone();
+        for (v, other, half_edge) in items {
+            sorted[next[v]] = (narrow(other), narrow(half_edge));
+            next[v] += 1;
+        }
+        for v in 0..vertices {
+            sorted[starts[v]..starts[v + 1]].sort_unstable();
+        }
+        Self { starts, items: sorted }
+    }
+
+    /// The items of a vertex.
+    pub(super) fn of(&self, vertex: usize) -> &[(u32, u32)] {
+        &self.items[self.starts[vertex]..self.starts[vertex + 1]]
+    }
+
+    /// The lowest half-edge of `vertex` with this other vertex.
+    pub(super) fn find(&self, vertex: usize, other: usize) -> Option<usize> {
+        let items = self.of(vertex);
+        let at = items.partition_point(|&(o, _)| (o as usize) < other);
+        items.get(at).filter(|&&(o, _)| o as usize == other).map(|&(_, h)| h as usize)
+    }
+}
+
 /// The edges of triangles with their half-edges (`3 t + k`, as in [`HalfEdgeId`]), ordered by
 /// the numbers of their ends.
 ///
 /// [`HalfEdgeId`]: super::HalfEdgeId
 pub(super) struct Edges {
-    /// Lower end, higher end, half-edge; sorted.
-    uses: Vec<(u32, u32, u32)>,
+    /// By the lower end.
+    buckets: Buckets,
+    vertices: usize,
 }
 
 impl Edges {
     /// The edges of `triangles`. Edges from a vertex to itself are left out.
     pub(super) fn of(triangles: &[[usize; 3]]) -> Self {
-        // Validation refuses meshes with more half-edges than 32 bits can number.
-        let narrow = |i: usize| u32::try_from(i).unwrap_or(u32::MAX);
-        let mut uses = Vec::with_capacity(3 * triangles.len());
-        for (t, corners) in triangles.iter().enumerate() {
-            for k in 0..3 {
-                let (from, to) = (corners[k], corners[(k + 1) % 3]);
-                if from != to {
-                    uses.push((narrow(from.min(to)), narrow(from.max(to)), narrow(3 * t + k)));
-                }
-            }
-        }
-        uses.sort_unstable();
-        Self { uses }
+        let vertices = triangles.iter().flatten().max().map_or(0, |&v| v + 1);
+        let half_edges = (0..3 * triangles.len()).filter_map(|h| {
+            let (from, to) = (start(triangles, h), end(triangles, h));
+            (from != to).then_some((from.min(to), from.max(to), h))
+        });
+        Self { buckets: Buckets::new(vertices, half_edges), vertices }
     }
 
     /// Every edge: its ends, the lower first, and the half-edges along it.
     pub(super) fn iter(&self) -> impl Iterator<Item = ([usize; 2], EdgeUses<'_>)> {
-        self.uses
-            .chunk_by(|a, b| (a.0, a.1) == (b.0, b.1))
-            .map(|uses| ([uses[0].0 as usize, uses[0].1 as usize], EdgeUses(uses)))
+        (0..self.vertices).flat_map(|low| {
+            self.buckets
+                .of(low)
+                .chunk_by(|a, b| a.0 == b.0)
+                .map(move |uses| ([low, uses[0].0 as usize], EdgeUses(uses)))
+        })
     }
 }
 
 /// The half-edges along one edge.
 #[derive(Clone, Copy)]
-pub(super) struct EdgeUses<'a>(&'a [(u32, u32, u32)]);
+pub(super) struct EdgeUses<'a>(&'a [(u32, u32)]);
 
 impl EdgeUses<'_> {
     pub(super) fn len(self) -> usize {
@@ -45,11 +91,11 @@ impl EdgeUses<'_> {
     }
 
     pub(super) fn half_edge(self, i: usize) -> usize {
-        self.0[i].2 as usize
+        self.0[i].1 as usize
     }
 
     pub(super) fn half_edges(&self) -> impl Iterator<Item = usize> + '_ {
-        self.0.iter().map(|u| u.2 as usize)
+        self.0.iter().map(|u| u.1 as usize)
     }
 }
 

@@ -206,12 +206,10 @@ impl Defect {
             0..=2 => format!("{} corners", corners.len()),
             _ => format!("its corners {} lie on one line or point", list(corners)),
         };
+        let near = if p.is_finite() { format!(" at {}", place(p)) } else { String::new() };
         Self::new(
             DefectKind::DegenerateTriangle,
-            format!(
-                "face {face} at {} has no area ({why}): delete it or merge its close vertices",
-                place(p)
-            ),
+            format!("face {face}{near} has no area ({why}): delete it or merge its close vertices"),
         )
         .vertices(corners)
         .faces(&[face])

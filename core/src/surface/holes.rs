@@ -176,3 +176,54 @@ impl Rim {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_patch_has_the_least_area_and_doubles_no_edge() {
+        // A tent without its ends: two triangles on the ridge 2–3.
+        let points = [
+            DVec3::new(5.0, 1.0, 0.0),
+            DVec3::new(-5.0, 1.0, 0.0),
+            DVec3::new(0.0, 0.0, 1.0),
+            DVec3::new(0.0, 2.0, 1.0),
+        ];
+        let tent = [[2, 0, 3], [3, 1, 2]];
+        let rim = Rim::new(vec![0, 3, 1, 2], &points);
+        assert!((rim.length - 4.0 * 27f64.sqrt()).abs() < 1e-12);
+        let sorted = |patch: Option<Vec<[usize; 3]>>| {
+            let mut patch = patch.unwrap();
+            patch.iter_mut().for_each(|t| t.sort_unstable());
+            patch.sort_unstable();
+            patch
+        };
+        // Along the ridge the area is 10.2 mm², along its base 14.1 mm².
+        assert_eq!(sorted(rim.fill(&points, &Edges::of(&[]), 1e-9)), [[0, 2, 3], [1, 2, 3]]);
+        assert_eq!(sorted(rim.fill(&points, &Edges::of(&tent), 1e-9)), [[0, 1, 2], [0, 1, 3]]);
+        assert_eq!(rim.fill(&points, &Edges::of(&tent), 5.0), None);
+    }
+
+    #[test]
+    fn the_patch_faces_as_the_surface() {
+        // The faces of a box round an open top at z = 1, seen from outside.
+        let points: Vec<DVec3> = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
+            .iter()
+            .flat_map(|&(x, y)| [DVec3::new(x, y, 0.0), DVec3::new(x, y, 1.0)])
+            .collect();
+        let mut triangles = Vec::new();
+        for i in 0..4 {
+            let [a, b, c, d] = [2 * i, (2 * i + 2) % 8, (2 * i + 3) % 8, 2 * i + 1];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+        let edges = Edges::of(&triangles);
+        let loops = boundary_loops(&triangles, &edges, 8);
+        let top = loops.iter().find(|l| start(&triangles, l[0]) % 2 == 1).unwrap();
+        let rim = Rim::new(top.iter().map(|&h| start(&triangles, h)).collect(), &points);
+        for t in rim.fill(&points, &edges, 1e-9).unwrap() {
+            let [a, b, c] = t.map(|v| points[v]);
+            assert_eq!((b - a).cross(c - a), DVec3::Z);
+        }
+    }
+}

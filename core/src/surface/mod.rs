@@ -4,6 +4,7 @@ mod connectivity;
 mod defect;
 mod holes;
 mod index;
+mod mesh;
 mod orientation;
 mod polygon;
 mod raw;

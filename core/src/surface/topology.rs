@@ -2,10 +2,9 @@
 //!
 //! Everything downstream takes a [`Surface`]; nothing downstream sees raw triangles.
 
-use std::collections::HashMap;
-
 use glam::DVec3;
 
+use super::connectivity::Buckets;
 use super::index::{HalfEdgeId, TriangleId, VertexId};
 
 /// A connected or unconnected, oriented, triangulated 2-manifold with or without boundary, in mm.
@@ -62,31 +61,17 @@ impl Surface {
     /// # Errors
     /// If the triangles are not an oriented manifold that uses every vertex.
     pub fn new(points: Vec<DVec3>, triangles: Vec<[VertexId; 3]>) -> Result<Self, TopologyError> {
-        let mut by_ends: HashMap<(VertexId, VertexId), HalfEdgeId> =
-            HashMap::with_capacity(3 * triangles.len());
         for (i, corners) in triangles.iter().enumerate() {
             let triangle = TriangleId::new(i);
-            for k in 0..3 {
-                let (from, to) = (corners[k], corners[(k + 1) % 3]);
-                if from.index() >= points.len() {
-                    return Err(TopologyError::IndexOutOfRange {
-                        triangle,
-                        vertex: from.index(),
-                        count: points.len(),
-                    });
-                }
-                if from == to {
-                    return Err(TopologyError::Degenerate(triangle));
-                }
-                if by_ends.insert((from, to), HalfEdgeId::of(triangle, k)).is_some() {
-                    return Err(TopologyError::EdgeUsedTwice(from, to));
-                }
+            let count = points.len();
+            if let Some(vertex) = corners.iter().map(|v| v.index()).find(|&v| v >= count) {
+                return Err(TopologyError::IndexOutOfRange { triangle, vertex, count });
+            }
+            if corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0] {
+                return Err(TopologyError::Degenerate(triangle));
             }
         }
-        let mut twins = vec![None; 3 * triangles.len()];
-        for (&(from, to), &half_edge) in &by_ends {
-            twins[half_edge.index()] = by_ends.get(&(to, from)).copied();
-        }
+        let twins = find_twins(points.len(), &triangles)?;
         let mut surface =
             Self { outgoing: Vec::new(), loops: Vec::new(), points, triangles, twins };
         surface.outgoing = surface.find_outgoing()?;
@@ -371,6 +356,28 @@ impl Surface {
         }
         (component, count)
     }
+}
+
+/// The half-edge that runs the other way along each half-edge's edge.
+fn find_twins(
+    vertices: usize,
+    triangles: &[[VertexId; 3]],
+) -> Result<Vec<Option<HalfEdgeId>>, TopologyError> {
+    let ends = |h: usize| {
+        let corners = &triangles[h / 3];
+        (corners[h % 3].index(), corners[(h % 3 + 1) % 3].index())
+    };
+    let half_edges = 0..3 * triangles.len();
+    let leaving = Buckets::new(vertices, half_edges.clone().map(|h| (ends(h).0, ends(h).1, h)));
+    half_edges
+        .map(|h| {
+            let (from, to) = ends(h);
+            if leaving.find(from, to) != Some(h) {
+                return Err(TopologyError::EdgeUsedTwice(VertexId::new(from), VertexId::new(to)));
+            }
+            Ok(leaving.find(to, from).map(HalfEdgeId::new))
+        })
+        .collect()
 }
 
 #[cfg(test)]

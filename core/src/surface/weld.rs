@@ -4,7 +4,8 @@
 //!   places are all the connectivity there is, and all points are welded.
 //! - Where points are shared by index, two vertices at one place are two on purpose: the sides of
 //!   a cut. They are left alone, unless they lie on the borders of two *different* components,
-//!   edge on edge: exporters part a surface so at the borders of texture patches.
+//!   edge on edge and running opposite ways, with the surface going on: exporters part a surface
+//!   so at the borders of texture patches. A second layer on the first is not joined to it.
 //!
 //! Limit: the cut of a surface that is stored as a soup cannot be told from the rest and closes.
 
@@ -88,12 +89,16 @@ pub(super) fn join_components(
     let mut sets = Sets::new(points.len());
     let mut joined = false;
     for group in borders.groups() {
-        let first = group[0];
-        if group.iter().any(|b| component[b.triangle] != component[first.triangle]) {
-            joined = true;
-            for border in &group[1..] {
-                sets.join(first.vertices[0], border.vertices[0]);
-                sets.join(first.vertices[1], border.vertices[1]);
+        for (i, a) in group.iter().enumerate() {
+            for b in &group[i + 1..] {
+                let goes_on = a.upward != b.upward
+                    && points[a.apex].distance(points[b.apex]) > tolerance
+                    && component[a.triangle] != component[b.triangle];
+                if goes_on {
+                    joined = true;
+                    sets.join(a.vertices[0], b.vertices[0]);
+                    sets.join(a.vertices[1], b.vertices[1]);
+                }
             }
         }
     }
@@ -114,7 +119,11 @@ struct Border {
     places: [usize; 2],
     /// The vertices at these places.
     vertices: [usize; 2],
+    /// Whether its triangle runs along it from the first to the second.
+    upward: bool,
     triangle: usize,
+    /// The triangle's third vertex.
+    apex: usize,
 }
 
 /// The boundary edges, sorted by their places.
@@ -139,11 +148,14 @@ impl Borders {
             .into_iter()
             .filter_map(|h| {
                 let (a, b) = (start(triangles, h), end(triangles, h));
-                let (a, b) = if place[a] <= place[b] { (a, b) } else { (b, a) };
+                let upward = place[a] <= place[b];
+                let (a, b) = if upward { (a, b) } else { (b, a) };
                 (place[a] != place[b]).then(|| Border {
                     places: [place[a], place[b]],
                     vertices: [a, b],
+                    upward,
                     triangle: h / 3,
+                    apex: triangles[h / 3][(h % 3 + 2) % 3],
                 })
             })
             .collect();
@@ -197,5 +209,10 @@ mod tests {
         let map = join_components(&points, &triangles, 1e-6).unwrap();
         assert_eq!(map, [0, 1, 2, 1, 4, 2, 6, 7, 8]);
         assert!(join_components(&points, &triangles[1..], 1e-6).is_none());
+        // Nor are two layers, whichever way they face.
+        for layers in [[[0, 1, 2], [3, 4, 5]], [[0, 1, 2], [3, 5, 4]]] {
+            let points = [points[0], points[1], points[2], points[0], points[1], points[2]];
+            assert!(join_components(&points, &layers, 1e-6).is_none());
+        }
     }
 }

@@ -86,8 +86,21 @@ fn collect(source: &mut Cursor<Vec<u8>>) -> std::io::Result<RawMesh> {
 fn read_text(bytes: &[u8]) -> Result<RawMesh, ReadError> {
     // The name may be in any encoding, or missing, and keywords in any case.
     let text = String::from_utf8_lossy(bytes).to_ascii_lowercase();
-    let body = text.trim_start().split_once('\n').map_or("", |(_, body)| body);
-    let normal = format!("solid \n{body}");
+    // The crate stops at the first `endsolid`; the solids of a file become one.
+    let is_frame = |line: &str| line.starts_with("solid") || line.starts_with("endsolid");
+    let mut normal = String::with_capacity(text.len());
+    normal.push_str("solid \n");
+    let mut ended = false;
+    for line in text.lines().map(str::trim).filter(|line| !line.is_empty()) {
+        ended = line.starts_with("endsolid");
+        if !is_frame(line) {
+            normal.push_str(line);
+            normal.push('\n');
+        }
+    }
+    if ended {
+        normal.push_str("endsolid\n");
+    }
     collect(&mut Cursor::new(normal.into_bytes())).map_err(|error| explain(&text, &error))
 }
 
@@ -162,6 +175,14 @@ mod tests {
         assert_eq!(raw.points[2].y, f64::from(0.2f32));
         let shouting = TEXT.to_uppercase().replace("SOLID WRIST", "SOLID");
         assert_eq!(read_bytes(shouting.as_bytes()).unwrap(), raw);
+    }
+
+    #[test]
+    fn all_solids_of_a_text_file_are_read() {
+        let two = format!("{TEXT}\n{}", TEXT.replace("1.5", "2.5"));
+        let raw = read_bytes(two.as_bytes()).unwrap();
+        assert_eq!(raw.polygons.len(), 2);
+        assert_eq!(raw.points[4].x, 2.5);
     }
 
     #[test]
