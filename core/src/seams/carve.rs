@@ -13,17 +13,9 @@ use glam::DVec3;
 
 use super::error::SeamError;
 use super::path::{End, Path, Taut};
-use super::region::{SNAP, TOUCH};
-use super::triangulation::{Triangulation, normal, smallest_angle};
+use super::slivers::{SNAP, TOUCH, YIELD, improve_round};
+use super::triangulation::Triangulation;
 use crate::surface::{HalfEdgeId, TriangleId, VertexId};
-
-/// A path goes through a vertex that cannot move if it passes nearer than this part of the edge:
-/// a kink of 3° at most, against a corner of less than 3° in the triangles.
-const YIELD: f64 = 0.05;
-
-/// Cosine of the bend (2°) up to which two triangles count as flat and may exchange their
-/// diagonal.
-const FLAT: f64 = 0.9994;
 
 /// One crossing: the half-edge by its ends, and the place.
 struct Crossing {
@@ -192,30 +184,13 @@ fn smooth(mesh: &mut Triangulation, chain: &[VertexId], pinned: &BTreeSet<Vertex
     for _ in 0..4 {
         let mut changed = false;
         for &v in chain {
-            for w in mesh.neighbours(v) {
-                // Edges between two vertices of seams may be seams.
-                let inner = !on_chain.contains(&w);
-                if inner && let Some(h) = mesh.edge(v, w) {
-                    changed |= improve(mesh, h);
-                }
-            }
+            // Edges between two vertices of seams may be seams.
+            changed |= improve_round(mesh, v, |w| !on_chain.contains(&w));
         }
         if !changed {
             break;
         }
     }
-}
-
-fn improve(mesh: &mut Triangulation, h: HalfEdgeId) -> bool {
-    let Some(g) = mesh.twin(h) else { return false };
-    let at = |v: VertexId| mesh.point(v);
-    let (a, b, o, p) = (at(mesh.from(h)), at(mesh.to(h)), at(mesh.apex(h)), at(mesh.apex(g)));
-    let (old, new) = ([[a, b, o], [b, a, p]], [[a, p, o], [p, b, o]]);
-    let n = old.map(|t| normal(t).normalize_or_zero());
-    let m = new.map(|t| normal(t).normalize_or_zero());
-    let flat = n[0].dot(n[1]) > FLAT && m[0].dot(m[1]) > FLAT && n[0].dot(m[0]) > FLAT;
-    let worst = |t: [[DVec3; 3]; 2]| smallest_angle(t[0]).min(smallest_angle(t[1]));
-    flat && worst(new) > 1.05 * worst(old) && mesh.flip(h)
 }
 
 /// Makes a place on the surface a vertex: a near vertex moves there, a near edge is split, or the

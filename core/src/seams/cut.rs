@@ -4,27 +4,14 @@
 //! seam joins the given points by straight paths. Each is carved into the triangulation and cut.
 //! Limits: planar surfaces only (no handles), and a path is locally shortest.
 
-use std::collections::{BTreeMap, BTreeSet};
-use std::f64::consts::{PI, TAU};
-
 use glam::DVec3;
 
-use super::carve::{carve, insert, insert_on_boundary};
-use super::error::{REACH_MM, SeamError, place};
-use super::path::{Path, Space, Taut};
+use super::cutter::Cutter;
+use super::error::SeamError;
 use super::sewing::{Seam, Sewing};
-use super::triangulation::Triangulation;
-use crate::geometry::closest_on_triangle;
-use crate::surface::{HalfEdgeId, Surface, TriangleId, VertexId};
+use super::shape::{Shape, same_edge};
+use crate::surface::{HalfEdgeId, Surface, VertexId};
 use crate::warning::Warning;
-
-/// Distances, in mm, that the automatic seam keeps from cut-outs, the first that leaves a way: the
-/// seam allowance and the cut-out's own hem want about 10 mm of fabric between them.
-const MARGINS_MM: [f64; 4] = [10.0, 5.0, 2.5, 0.0];
-
-/// A ring counts as a flat piece with a cut-out, not as a tube, if its edges turn by more than
-/// this part of a full turn: it then lies flat with less than 10 % of strain around.
-const FLAT_RING: f64 = 0.9;
 
 /// A surface cut open to a disk, perhaps with cut-outs.
 #[derive(Debug, Clone, PartialEq)]
@@ -86,11 +73,7 @@ pub fn open_to_disk(surface: &Surface, seams: &[Vec<DVec3>]) -> Result<CutSurfac
     if seams.is_empty() && shape.tube.is_none() {
         return finish(surface.clone(), &shape, warnings);
     }
-    let mut cutter = Cutter {
-        mesh: Triangulation::new(surface),
-        pinned: shape.sewn.clone(),
-        chains: Vec::new(),
-    };
+    let mut cutter = Cutter::new(surface, &shape);
     if let (true, Some(ends)) = (seams.is_empty(), shape.tube) {
         warnings.push(cutter.automatic(&shape, ends)?);
     }
@@ -98,350 +81,6 @@ pub fn open_to_disk(surface: &Surface, seams: &[Vec<DVec3>]) -> Result<CutSurfac
         cutter.designed(i + 1, seam, &shape.sewn)?;
     }
     finish(cutter.cut()?, &shape, warnings)
-}
-
-/// What the surface is before it is cut.
-struct Shape {
-    /// The boundary loops of the sewn surface, as vertices.
-    loops: Vec<Vec<VertexId>>,
-    lengths: Vec<f64>,
-    /// The loop of each vertex.
-    loop_of: Vec<Option<usize>>,
-    /// The two ends, longer first, if the sewn surface is a tube.
-    ends: Option<[usize; 2]>,
-    /// The same, if it has yet to be cut.
-    tube: Option<[usize; 2]>,
-    /// Vertices on sides that are sewn already; they must not part.
-    sewn: BTreeSet<VertexId>,
-    warnings: Vec<Warning>,
-}
-
-impl Shape {
-    fn of(surface: &Surface) -> Result<Self, SeamError> {
-        let pieces = surface.components().1;
-        if pieces != 1 {
-            return Err(SeamError::Internal(format!("a surface of {pieces} pieces is to be cut")));
-        }
-        let boundary = i64::try_from(surface.boundary_loops().len()).unwrap_or(i64::MAX);
-        let genus = (2 - boundary - surface.euler_characteristic()) / 2;
-        if genus > 0 {
-            let centre = surface.points().iter().sum::<DVec3>() / surface.vertex_count() as f64;
-            return Err(SeamError::Handles { genus, centre });
-        }
-        if boundary == 0 {
-            return Err(SeamError::Closed);
-        }
-        let sewing = Sewing::new(surface);
-        let around = sewing.sewn_loops();
-        let lengths: Vec<f64> =
-            around.iter().map(|l| l.iter().map(|&h| surface.length(h)).sum()).collect();
-        let loops: Vec<Vec<VertexId>> =
-            around.iter().map(|l| l.iter().map(|&h| surface.from(h)).collect()).collect();
-        let mut loop_of = vec![None; surface.vertex_count()];
-        for (i, vertices) in loops.iter().enumerate() {
-            for v in vertices {
-                loop_of[v.index()] = Some(i);
-            }
-        }
-        let sewn = surface
-            .half_edges()
-            .filter(|&h| sewing.partner(h).is_some())
-            .flat_map(|h| [surface.from(h), surface.to(h)])
-            .collect();
-        let mut shape =
-            Self { loops, lengths, loop_of, ends: None, tube: None, sewn, warnings: Vec::new() };
-        let mut order: Vec<usize> = (0..shape.loops.len()).collect();
-        order.sort_by(|&a, &b| shape.lengths[b].total_cmp(&shape.lengths[a]).then(a.cmp(&b)));
-        if let [proximal, distal, ..] = order[..] {
-            let ends = [proximal, distal];
-            if same_edge(surface, around[proximal][0], around[distal][0]) {
-                shape.ends = Some(ends);
-            } else if shape.is_flat_ring(surface, &around, ends) {
-                shape.warnings.push(Warning::new(
-                    "taken_as_patch",
-                    format!(
-                        "the surface is taken as a flat piece with {} cut-out{}, not as a tube; if \
-                         it goes round a limb, give a seam from its inner to its outer edge",
-                        order.len() - 1,
-                        if order.len() > 2 { "s" } else { "" }
-                    ),
-                ));
-            } else {
-                shape.ends = Some(ends);
-                shape.tube = Some(ends);
-            }
-        }
-        Ok(shape)
-    }
-
-    /// Whether the outer edge turns nearly once round as a disk's does and the inner one nearly
-    /// once back, as a cut-out's does; the edges of a tube do not turn (Gauss–Bonnet).
-    fn is_flat_ring(
-        &self,
-        surface: &Surface,
-        around: &[Vec<HalfEdgeId>],
-        ends: [usize; 2],
-    ) -> bool {
-        let turn = |i: usize| -> f64 {
-            around[i]
-                .iter()
-                .map(|&h| {
-                    let fan = surface.outgoing(surface.from(h));
-                    PI - fan.map(|k| corner_angle(surface, k)).sum::<f64>()
-                })
-                .sum()
-        };
-        turn(ends[0]) > FLAT_RING * TAU && turn(ends[1]) < -FLAT_RING * TAU
-    }
-
-    fn middle(&self, surface: &[DVec3], i: usize) -> DVec3 {
-        let vertices = &self.loops[i];
-        vertices.iter().map(|v| surface[v.index()]).sum::<DVec3>() / vertices.len() as f64
-    }
-}
-
-fn corner_angle(surface: &Surface, h: HalfEdgeId) -> f64 {
-    let at = surface.point(surface.from(h));
-    let (u, v) = (surface.point(surface.to(h)) - at, surface.point(surface.from(h.prev())) - at);
-    u.cross(v).length().atan2(u.dot(v))
-}
-
-/// Whether two boundary half-edges lie on one boundary loop.
-fn same_edge(surface: &Surface, a: HalfEdgeId, b: HalfEdgeId) -> bool {
-    surface.boundary_loops().iter().any(|l| l.half_edges.contains(&a) && l.half_edges.contains(&b))
-}
-
-/// Cuts seam after seam into a triangulation.
-struct Cutter {
-    mesh: Triangulation,
-    /// Vertices that must not move: those of seams.
-    pinned: BTreeSet<VertexId>,
-    /// Chains of vertices along which the surface is cut.
-    chains: Vec<Vec<VertexId>>,
-}
-
-impl Cutter {
-    fn automatic(&mut self, shape: &Shape, ends: [usize; 2]) -> Result<Warning, SeamError> {
-        let cut_outs: Vec<VertexId> = (0..shape.loops.len())
-            .filter(|i| !ends.contains(i))
-            .flat_map(|i| shape.loops[i].iter().copied())
-            .collect();
-        let [proximal, distal] = ends.map(|i| &shape.loops[i][..]);
-        for margin in MARGINS_MM {
-            let space = Space::new(&self.mesh, self.within(&cut_outs, margin));
-            let Some((path, taut)) = space.across(proximal, distal)? else { continue };
-            self.carve(&path, &taut)?;
-            let chain = &self.chains[self.chains.len() - 1];
-            let [first, last] = [chain.first(), chain.last()]
-                .map(|v| v.map_or(DVec3::ZERO, |&v| self.mesh.point(v)));
-            return Ok(Warning::at(
-                "seam_automatic",
-                format!(
-                    "the seam was placed automatically: the shortest way along the limb, {:.0} mm \
-                     from ({}) to ({}); to have it elsewhere, draw a seam",
-                    taut.length,
-                    place(first),
-                    place(last)
-                ),
-                first,
-            ));
-        }
-        let [proximal, distal] = ends.map(|i| shape.middle(self.mesh.points(), i));
-        Err(SeamError::NoAutomaticSeam { proximal, distal })
-    }
-
-    /// The vertices within `margin` mm of the given ones along edges.
-    fn within(&self, vertices: &[VertexId], margin: f64) -> Vec<bool> {
-        let mut distance = BTreeMap::new();
-        let mut front: Vec<VertexId> = vertices.to_vec();
-        for &v in vertices {
-            distance.insert(v, 0.0);
-        }
-        // Few vertices: relaxing again whatever came nearer is quick enough.
-        while let Some(v) = front.pop() {
-            let own = distance[&v];
-            for w in self.mesh.neighbours(v) {
-                let next = own + self.mesh.point(v).distance(self.mesh.point(w));
-                if next <= margin && distance.get(&w).is_none_or(|&d: &f64| next < d) {
-                    distance.insert(w, next);
-                    front.push(w);
-                }
-            }
-        }
-        let mut result = vec![false; self.mesh.vertex_count()];
-        for v in distance.into_keys() {
-            result[v.index()] = true;
-        }
-        result
-    }
-
-    fn carve(&mut self, path: &Path, taut: &Taut) -> Result<(), SeamError> {
-        let chain = carve(&mut self.mesh, path, taut, &self.pinned)?;
-        // Where the new chain crosses an edge of an older one, that edge has become two.
-        for old in &mut self.chains {
-            let mut i = 0;
-            while i + 1 < old.len() {
-                let (a, b) = (old[i], old[i + 1]);
-                if self.mesh.edge(a, b).is_none() {
-                    let joins = |&&x: &&VertexId| {
-                        self.mesh.edge(a, x).is_some() && self.mesh.edge(x, b).is_some()
-                    };
-                    let x = *chain.iter().find(joins).ok_or_else(|| {
-                        SeamError::Internal(format!("a seam broke between {a} and {b}"))
-                    })?;
-                    old.insert(i + 1, x);
-                }
-                i += 1;
-            }
-        }
-        self.pinned.extend(&chain);
-        self.chains.push(chain);
-        Ok(())
-    }
-
-    fn designed(
-        &mut self,
-        seam: usize,
-        points: &[DVec3],
-        sewn: &BTreeSet<VertexId>,
-    ) -> Result<(), SeamError> {
-        if points.len() < 2 {
-            return Err(SeamError::SeamTooShort { seam, count: points.len() });
-        }
-        let mut places = Vec::with_capacity(points.len());
-        for (i, &at) in points.iter().enumerate() {
-            let (triangle, weights, distance) = self.nearest(at);
-            if !(distance <= REACH_MM) {
-                return Err(SeamError::SeamPointFar { seam, point: i + 1, at, distance });
-            }
-            let p = self.mesh.corners(triangle);
-            places.push(weights.x * p[0] + weights.y * p[1] + weights.z * p[2]);
-        }
-        let last = points.len() - 1;
-        let first_end = self.attach(places[0], sewn);
-        let last_end = self.attach(places[last], sewn);
-        if first_end.is_none() && last_end.is_none() {
-            return Err(SeamError::SeamInside { seam, start: points[0], end: points[last] });
-        }
-        // The vertices that the seam passes, each with the number of its point.
-        let edge = Space::new(&self.mesh, Vec::new()).edge;
-        let mut stops: Vec<(VertexId, usize)> = Vec::new();
-        stops.extend(first_end.map(|v| (v, 1)));
-        for (i, &p) in places.iter().enumerate() {
-            let end = match i {
-                0 => first_end,
-                i if i == last => last_end,
-                _ => None,
-            };
-            // A last point beside the edge to which the seam is extended would only kink it.
-            if end.is_some_and(|v| self.mesh.point(v).distance(p) < 2.0 * edge) {
-                continue;
-            }
-            let (triangle, weights, _) = self.nearest(p);
-            let v = insert(&mut self.mesh, triangle, weights, &self.pinned);
-            self.pinned.insert(v);
-            stops.push((v, i + 1));
-        }
-        stops.extend(last_end.map(|v| (v, last + 1)));
-        stops.dedup_by_key(|stop| stop.0);
-        for (i, pair) in stops.windows(2).enumerate() {
-            let ((from, point), (to, _)) = (pair[0], pair[1]);
-            // Only at its ends may the seam touch the surface's edge.
-            let shores = [
-                if i == 0 { self.shore(from) } else { Vec::new() },
-                if i + 2 == stops.len() { self.shore(to) } else { Vec::new() },
-            ];
-            let mut forbidden: Vec<bool> = vec![false; self.mesh.vertex_count()];
-            for h in (0..self.mesh.half_edge_count()).map(HalfEdgeId::new) {
-                if self.mesh.twin(h).is_none() {
-                    forbidden[self.mesh.from(h).index()] = true;
-                }
-            }
-            for v in shores.iter().flatten() {
-                forbidden[v.index()] = false;
-            }
-            let space = Space::new(&self.mesh, forbidden);
-            let Some((path, taut)) = space.between(from, to, [&shores[0], &shores[1]])? else {
-                let [from, to] = [from, to].map(|v| self.mesh.point(v));
-                return Err(SeamError::NoWay { seam, point, from, to });
-            };
-            self.carve(&path, &taut)?;
-        }
-        Ok(())
-    }
-
-    /// The nearest place: triangle, barycentric coordinates, distance in mm.
-    fn nearest(&self, at: DVec3) -> (TriangleId, DVec3, f64) {
-        let mut best = (TriangleId::new(0), DVec3::X, f64::INFINITY);
-        for i in 0..self.mesh.triangles().len() {
-            let t = TriangleId::new(i);
-            let p = self.mesh.corners(t);
-            let w = closest_on_triangle(at, p);
-            let distance = at.distance(w.x * p[0] + w.y * p[1] + w.z * p[2]);
-            if distance < best.2 {
-                best = (t, w, distance);
-            }
-        }
-        best
-    }
-
-    /// The vertex at which a seam with an end here begins: on the nearest edge of the surface, or
-    /// on an earlier seam; `None` if neither is within reach.
-    fn attach(&mut self, at: DVec3, sewn: &BTreeSet<VertexId>) -> Option<VertexId> {
-        let mut best: Option<(f64, HalfEdgeId, f64)> = None;
-        for h in (0..self.mesh.half_edge_count()).map(HalfEdgeId::new) {
-            let (a, b) = (self.mesh.from(h), self.mesh.to(h));
-            // The sides of a seam are no edge of the brace.
-            if self.mesh.twin(h).is_some() || (sewn.contains(&a) && sewn.contains(&b)) {
-                continue;
-            }
-            let (p, q) = (self.mesh.point(a), self.mesh.point(b));
-            let part = ((at - p).dot(q - p) / (q - p).length_squared()).clamp(0.0, 1.0);
-            let distance = at.distance(p.lerp(q, part));
-            if distance <= REACH_MM && best.is_none_or(|(least, ..)| distance < least) {
-                best = Some((distance, h, part));
-            }
-        }
-        if let Some((_, h, part)) = best {
-            let v = insert_on_boundary(&mut self.mesh, h, part, &self.pinned);
-            self.pinned.insert(v);
-            return Some(v);
-        }
-        let mut near: Option<(f64, VertexId)> = None;
-        for &v in self.chains.iter().flatten() {
-            let distance = at.distance(self.mesh.point(v));
-            if distance <= REACH_MM && near.is_none_or(|(least, _)| distance < least) {
-                near = Some((distance, v));
-            }
-        }
-        near.map(|(_, v)| v)
-    }
-
-    /// The boundary loop through a vertex; empty inside the surface.
-    fn shore(&self, v: VertexId) -> Vec<VertexId> {
-        let mut around = Vec::new();
-        let mut next = self.mesh.boundary_after(v);
-        while let Some(h) = next {
-            around.push(self.mesh.from(h));
-            let to = self.mesh.to(h);
-            next = self.mesh.boundary_after(to).filter(|_| to != v);
-        }
-        around
-    }
-
-    fn cut(&self) -> Result<Surface, SeamError> {
-        let mut cut = vec![false; self.mesh.half_edge_count()];
-        for pair in self.chains.iter().flat_map(|chain| chain.windows(2)) {
-            let h = self.mesh.edge(pair[0], pair[1]).ok_or_else(|| {
-                SeamError::Internal(format!("no edge between {} and {}", pair[0], pair[1]))
-            })?;
-            cut[h.index()] = true;
-            if let Some(g) = self.mesh.twin(h) {
-                cut[g.index()] = true;
-            }
-        }
-        self.mesh.cut_open(&cut)
-    }
 }
 
 /// Checks the cut surface and finds its seams and ends.
@@ -544,46 +183,52 @@ fn one_piece(disk: &Surface) -> Result<(), SeamError> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{
-        Mesh, cylinder, cylinder_with_hole, frustum, round, slit_cylinder, sphere, strip, torus,
-    };
-    use super::super::triangulation::smallest_angle;
-    use super::*;
+    use std::f64::consts::{PI, TAU};
 
-    fn worst(s: &Surface) -> f64 {
-        s.triangle_ids().map(|t| smallest_angle(s.corners(t))).fold(f64::INFINITY, f64::min)
-    }
+    use glam::{DMat3, DQuat};
+
+    use super::super::fixtures::{
+        Mesh, annulus, cylinder, cylinder_with_hole, frustum, round, slit_cylinder,
+        smallest_corner, sphere, strip, torus, tube,
+    };
+    use super::*;
 
     fn length(s: &Surface, chain: &[VertexId]) -> f64 {
         chain.windows(2).map(|w| s.point(w[0]).distance(s.point(w[1]))).sum()
     }
 
-    /// What every cut must keep: pairs coincide, the area stays, the surface is a planar piece.
+    /// What every cut must keep: pairs coincide in order, the area stays, the disk is planar.
     fn check(before: &Surface, cut: &CutSurface, loops: usize) {
         let disk = &cut.disk;
         assert_eq!(disk.components().1, 1);
         assert_eq!(disk.boundary_loops().len(), loops);
         assert_eq!(disk.euler_characteristic(), 2 - i64::try_from(loops).unwrap());
         assert!((disk.total_area() / before.total_area() - 1.0).abs() < 1e-3);
-        let sewing = Sewing::new(disk);
-        let mut pairs = 0;
+        assert!(smallest_corner(disk) > 0.25 * smallest_corner(before).min(0.35));
+        let mut sewn = 0;
         for seam in &cut.seams {
             assert_eq!(seam.left.len(), seam.right.len());
             for (l, r) in seam.left.iter().zip(&seam.right) {
                 assert_eq!(disk.point(*l), disk.point(*r));
             }
-            // The surface is on the left of `left` and on the right of `right`, in order.
             for i in 1..seam.left.len() {
+                // The surface lies to the left of `left` and to the right of `right`.
                 let edge = |a: VertexId, b: VertexId| disk.outgoing(a).find(|&h| disk.to(h) == b);
                 let left = edge(seam.left[i - 1], seam.left[i]).unwrap();
                 let right = edge(seam.right[i], seam.right[i - 1]).unwrap();
                 assert!(disk.twin(left).is_none() && disk.twin(right).is_none());
-                assert_eq!(sewing.partner(left), Some(right));
-                pairs += 1;
+                sewn += 2;
             }
         }
-        let sewn = disk.half_edges().filter(|&h| sewing.partner(h).is_some()).count();
-        assert_eq!(sewn, 2 * pairs);
+        let sewing = Sewing::new(disk);
+        assert_eq!(disk.half_edges().filter(|&h| sewing.partner(h).is_some()).count(), sewn);
+    }
+
+    /// Greatest distance, along the girth, of a seam from the generator through its start.
+    fn aside(disk: &Surface, chain: &[VertexId]) -> f64 {
+        let angle = |v: VertexId| disk.point(v).y.atan2(disk.point(v).x);
+        let off = |v| (angle(v) - angle(chain[0]) + PI).rem_euclid(TAU) - PI;
+        chain.iter().map(|&v| 40.0 * f64::abs(off(v))).fold(0.0, f64::max)
     }
 
     #[test]
@@ -593,29 +238,215 @@ mod tests {
             let cut = open_to_disk(&s, &[]).unwrap();
             check(&s, &cut, 1);
             assert_eq!(cut.seams.len(), 1);
+            assert_eq!(cut.warnings.len(), 1);
+            assert_eq!(cut.warnings[0].code, "seam_automatic");
+            let chain = &cut.seams[0].left;
+            let long = length(&cut.disk, chain);
+            assert!((long / 200.0 - 1.0).abs() < 2e-4, "{mesh:?} {long}");
+            let aside = aside(&cut.disk, chain);
+            assert!(aside < 0.2, "{mesh:?} {aside}");
+            let ends = cut.ends.as_ref().unwrap();
+            for (end, girth) in [&ends.proximal, &ends.distal].into_iter().zip(ends.girths) {
+                assert!((length(&cut.disk, end) - girth).abs() < 1e-9);
+                assert!((girth / (TAU * 40.0) - 1.0).abs() < 2e-3, "{girth}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_seam_runs_from_the_wide_end_with_its_left_side_on_the_left() {
+        for mesh in Mesh::ALL {
+            // Wide end on top: seen from outside, walking down, left is counter-clockwise.
+            let s = frustum(35.0, 50.0, 200.0, mesh);
+            let cut = open_to_disk(&s, &[]).unwrap();
+            check(&s, &cut, 1);
             let seam = &cut.seams[0];
             let long = length(&cut.disk, &seam.left);
-            let angles: Vec<f64> = seam
-                .left
+            let exact = f64::hypot(200.0, 15.0);
+            assert!((long / exact - 1.0).abs() < 5e-4, "{mesh:?} {long} {exact}");
+            assert!(cut.disk.point(seam.left[0]).z > 199.9);
+            let v = seam.left[seam.left.len() / 2];
+            let p = cut.disk.point(v);
+            for w in cut.disk.neighbours(v) {
+                let q = cut.disk.point(w);
+                assert!(p.cross(q).z > -1.0, "{mesh:?} {p} {q}");
+            }
+            let girths = cut.ends.as_ref().unwrap().girths;
+            assert!(girths[0] > girths[1]);
+            let turned = cut.clone().with_proximal_at(DVec3::new(35.0, 0.0, 0.0));
+            assert_eq!(turned.seams[0].left[0], *seam.right.last().unwrap());
+            assert_eq!(turned.ends.as_ref().unwrap().girths, [girths[1], girths[0]]);
+            check(&s, &turned, 1);
+            assert_eq!(cut.clone().with_proximal_at(p.with_z(200.0)), cut);
+        }
+    }
+
+    #[test]
+    fn the_seam_keeps_away_from_a_cut_out_in_its_way() {
+        for mesh in Mesh::ALL {
+            // Shortest where the window is.
+            let place = |u: f64, v: f64| {
+                let reach = 1.3 - 0.3 * (TAU * (u - 0.5)).cos();
+                round(40.0, u - 0.5, 100.0 + 200.0 * (v - 0.5) * reach)
+            };
+            let window = |i, j| (20..28).contains(&i) && (17..23).contains(&j);
+            let s = tube(48, 40, mesh, place, window);
+            let cut = open_to_disk(&s, &[]).unwrap();
+            check(&s, &cut, 2);
+            let rim = cut
+                .disk
+                .boundary_loops()
                 .iter()
-                .map(|&v| cut.disk.point(v))
-                .map(|p| {
-                    (p.y.atan2(p.x)
-                        - cut.disk.point(seam.left[0]).to_array()[1]
-                            .atan2(cut.disk.point(seam.left[0]).x)
-                        + 9.0 * PI)
-                        .rem_euclid(TAU)
-                        - PI
-                })
-                .collect();
-            let aside = angles.iter().map(|a| 40.0 * a.abs()).fold(0.0, f64::max);
-            println!(
-                "{mesh:?}: length {long:.6}, aside {aside:.6} mm, points {}, corner {:.2} -> {:.2} deg",
-                seam.left.len(),
-                worst(&s).to_degrees(),
-                worst(&cut.disk).to_degrees()
-            );
-            assert!((long / 200.0 - 1.0).abs() < 1e-3, "{mesh:?} {long}");
+                .min_by(|a, b| cut.disk.loop_length(a).total_cmp(&cut.disk.loop_length(b)));
+            let rim: Vec<DVec3> =
+                cut.disk.loop_vertices(rim.unwrap()).map(|v| cut.disk.point(v)).collect();
+            let chain = &cut.seams[0].left;
+            let gap = |v: &VertexId| {
+                rim.iter().map(|p| p.distance(cut.disk.point(*v))).fold(f64::INFINITY, f64::min)
+            };
+            let least = chain.iter().map(gap).fold(f64::INFINITY, f64::min);
+            assert!((9.0..20.0).contains(&least), "{mesh:?} {least}");
+        }
+    }
+
+    #[test]
+    fn a_disk_is_taken_as_it_is_and_a_slit_tube_as_cut() {
+        let s = strip(80.0, 300.0);
+        let cut = open_to_disk(&s, &[]).unwrap();
+        assert_eq!((&cut.disk, cut.seams.len(), &cut.ends), (&s, 0, &None));
+        assert!(cut.warnings.is_empty());
+        let s = slit_cylinder(40.0, 200.0);
+        let cut = open_to_disk(&s, &[]).unwrap();
+        assert_eq!(cut.disk, s);
+        check(&s, &cut, 1);
+        assert_eq!(cut.seams.len(), 1);
+        assert_eq!(cut.seams[0].left.len(), 41);
+        let ends = cut.ends.as_ref().unwrap();
+        assert_eq!((ends.proximal.len(), ends.distal.len()), (49, 49));
+        let first = cut.disk.point(cut.seams[0].left[0]).z;
+        assert_eq!(first, cut.disk.point(ends.proximal[0]).z);
+        // A flat ring is a piece with a cut-out, a steep one a tube.
+        let flat = open_to_disk(&annulus(60.0, 120.0, 10.0), &[]).unwrap();
+        assert_eq!((flat.seams.len(), flat.warnings[0].code), (0, "taken_as_patch"));
+        let steep = open_to_disk(&annulus(60.0, 120.0, 60.0), &[]).unwrap();
+        assert_eq!((steep.seams.len(), steep.warnings[0].code), (1, "seam_automatic"));
+    }
+
+    #[test]
+    fn a_drawn_seam_goes_straight_from_point_to_point_and_is_extended_to_the_ends() {
+        for mesh in Mesh::ALL {
+            let s = cylinder(40.0, 200.0, mesh);
+            // 3 mm outside, 6 mm short of both ends, bent at two thirds.
+            let points = [round(43.0, 0.1, 6.0), round(38.0, 0.2, 130.0), round(41.0, 0.15, 194.0)];
+            let cut = open_to_disk(&s, &[points.to_vec()]).unwrap();
+            check(&s, &cut, 1);
+            assert!(cut.warnings.is_empty());
+            assert_eq!(cut.seams.len(), 1);
+            let arc = TAU * 40.0;
+            let exact = f64::hypot(124.0, 0.1 * arc) + f64::hypot(64.0, 0.05 * arc) + 12.0;
+            let long = length(&cut.disk, &cut.seams[0].left);
+            assert!((long / exact - 1.0).abs() < 4e-3, "{mesh:?} {long} {exact}");
+            for p in [points[0], points[1], points[2]] {
+                let on = round(40.0, p.y.atan2(p.x) / TAU, p.z);
+                let gap = |v: &VertexId| cut.disk.point(*v).distance(on);
+                let gap = cut.seams[0].left.iter().map(gap).fold(f64::INFINITY, f64::min);
+                // Vertices of the seam are up to 7 mm apart; at the ends it is led straight on.
+                assert!(gap < 3.0, "{mesh:?} {gap}");
+            }
+        }
+    }
+
+    #[test]
+    fn seams_to_and_from_a_cut_out_open_the_tube_and_a_dart_ends_inside() {
+        for mesh in Mesh::ALL {
+            let s = cylinder_with_hole(mesh);
+            let down = vec![round(40.0, 0.0, 0.0), round(40.0, 0.0, 84.0)];
+            let up = vec![round(40.0, 0.01, 118.0), round(40.0, 0.0, 200.0)];
+            let dart = vec![round(40.0, 0.5, 200.0), round(40.0, 0.52, 150.0)];
+            let cut = open_to_disk(&s, &[down, up, dart]).unwrap();
+            check(&s, &cut, 1);
+            assert_eq!(cut.seams.len(), 3);
+            let tips: Vec<&Seam> =
+                cut.seams.iter().filter(|seam| seam.left.last() == seam.right.last()).collect();
+            let starts = cut.seams.iter().filter(|m| m.left.first() == m.right.first()).count();
+            // From the proximal end a dart at the far end comes tip first.
+            assert_eq!(tips.len() + starts, 1, "{mesh:?}");
+        }
+        let s = strip(80.0, 300.0);
+        let slit = vec![DVec3::new(40.0, 100.0, 0.0), DVec3::new(-3.0, 110.0, 0.0)];
+        let cut = open_to_disk(&s, &[slit]).unwrap();
+        check(&s, &cut, 1);
+        let seam = &cut.seams[0];
+        assert_eq!(seam.left.last(), seam.right.last());
+        assert_ne!(seam.left.first(), seam.right.first());
+        assert!((length(&cut.disk, &seam.left) - f64::hypot(40.0, 10.0)).abs() < 0.5);
+    }
+
+    #[test]
+    fn a_second_seam_may_begin_on_the_first_and_cross_none() {
+        let s = cylinder(40.0, 200.0, Mesh::Random(3));
+        let main = vec![round(40.0, 0.0, 0.0), round(40.0, 0.0, 200.0)];
+        let branch = vec![round(40.0, 0.01, 100.0), round(40.0, 0.2, 110.0)];
+        let cut = open_to_disk(&s, &[main.clone(), branch]).unwrap();
+        check(&s, &cut, 1);
+        assert_eq!(cut.seams.len(), 3);
+        let total: f64 = cut.seams.iter().map(|m| length(&cut.disk, &m.left)).sum();
+        assert!((total - 200.0 - f64::hypot(0.2 * TAU * 40.0, 10.0)).abs() < 1.5, "{total}");
+        let across =
+            vec![round(40.0, -0.1, 200.0), round(40.0, 0.1, 100.0), round(40.0, -0.1, 0.0)];
+        let error = open_to_disk(&s, &[main, across]).unwrap_err();
+        assert!(matches!(error, SeamError::Split { pieces: 4, .. }), "{error}");
+    }
+
+    #[test]
+    fn what_cannot_be_cut_is_named_with_the_remedy() {
+        let text =
+            |s: &Surface, seams: &[Vec<DVec3>]| open_to_disk(s, seams).unwrap_err().to_string();
+        assert!(text(&sphere(50.0), &[]).contains("give two region planes"));
+        assert!(text(&torus(60.0, 20.0), &[]).contains("1 handle:"));
+        let s = cylinder(40.0, 200.0, Mesh::Right);
+        let far = text(&s, &[vec![round(40.0, 0.0, 0.0), round(55.0, 0.0, 100.0)]]);
+        assert!(far.starts_with("point 2 of seam 1, (55.0, 0.0, 100.0), lies 15.0 mm"), "{far}");
+        assert!(text(&s, &[vec![DVec3::NAN, DVec3::ZERO]]).starts_with("point 1 of seam 1"));
+        assert!(text(&s, &[vec![DVec3::ZERO]]).starts_with("seam 1 has 1 point:"));
+        let inside = text(&s, &[vec![round(40.0, 0.0, 50.0), round(40.0, 0.0, 100.0)]]);
+        assert!(inside.contains("begins (40.0, 0.0, 50.0) and ends"), "{inside}");
+        let short = text(&s, &[vec![round(40.0, 0.0, 200.0), round(40.0, 0.0, 50.0)]]);
+        assert!(
+            short.contains("no seam reaches the 251 mm long end near (0.0, 0.0, 0.0)"),
+            "{short}"
+        );
+        let darts = |z: f64, w: f64| vec![round(40.0, 0.0, z), round(40.0, 0.0, w)];
+        let apart = text(&s, &[darts(200.0, 150.0), darts(0.0, 50.0)]);
+        assert!(apart.contains("do not meet"), "{apart}");
+        let two =
+            text(&s, &[darts(200.0, 0.0), vec![round(40.0, 0.3, 200.0), round(40.0, 0.3, 0.0)]]);
+        assert!(two.contains("split the surface into 2 pieces; the smallest"), "{two}");
+        let (p, t) = (s.points(), s.triangles());
+        let n = p.len();
+        let twice = p.iter().copied().chain(p.iter().map(|p| p + DVec3::X * 500.0)).collect();
+        let shifted = t.iter().map(|c| c.map(|v| VertexId::new(v.index() + n)));
+        let pair = Surface::new(twice, t.iter().copied().chain(shifted).collect()).unwrap();
+        assert!(text(&pair, &[]).starts_with("internal fault"));
+    }
+
+    #[test]
+    fn the_same_limb_is_cut_alike_again_and_turned_in_space() {
+        for mesh in Mesh::ALL {
+            let s = frustum(37.0, 50.0, 200.0, mesh);
+            let cut = open_to_disk(&s, &[]).unwrap();
+            assert_eq!(cut, open_to_disk(&s, &[]).unwrap());
+            let turn = DMat3::from_quat(DQuat::from_euler(glam::EulerRot::XYZ, 0.3, -1.1, 2.0));
+            let moved = |p: &DVec3| turn * *p + DVec3::new(120.0, -40.0, 700.0);
+            let t = s.with_points(s.points().iter().map(moved).collect());
+            let other = open_to_disk(&t, &[]).unwrap();
+            let parts = |c: &CutSurface| (c.disk.vertex_count(), c.seams[0].left.len());
+            assert_eq!(parts(&other), parts(&cut), "{mesh:?}");
+            assert!(other.disk.triangles() == cut.disk.triangles(), "{mesh:?}");
+            assert_eq!(other.seams, cut.seams);
+            for (p, q) in cut.disk.points().iter().zip(other.disk.points()) {
+                assert!(moved(p).distance(*q) < 1e-5, "{mesh:?} {}", moved(p).distance(*q));
+            }
         }
     }
 }

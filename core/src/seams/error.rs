@@ -189,5 +189,7 @@ impl From<TopologyError> for SeamError {
 
 /// A place for people: millimetres with one decimal.
 pub(super) fn place(p: DVec3) -> String {
-    format!("{:.1}, {:.1}, {:.1}", p.x, p.y, p.z)
+    // Adding zero turns −0 into 0.
+    let [x, y, z] = p.to_array().map(|x| (10.0 * x).round() / 10.0 + 0.0);
+    format!("{x:.1}, {y:.1}, {z:.1}")
 }

@@ -57,7 +57,7 @@ pub fn tube(
             let (mut u, mut v) = (i as f64, j as f64);
             match mesh {
                 Mesh::Right => {}
-                Mesh::Wound => u += 0.37 * v,
+                Mesh::Wound => u += 0.37 * (v - along as f64 / 2.0),
                 Mesh::Bricks => u += if j % 2 == 1 { 0.5 } else { 0.0 },
                 Mesh::Random(_) => {
                     u += noise.next() / 3.0;
@@ -159,6 +159,11 @@ pub fn strip(width: f64, height: f64) -> Surface {
     surface(points, &triangles)
 }
 
+/// A ring between two radii, the inner one raised by `height`.
+pub fn annulus(inner: f64, outer: f64, height: f64) -> Surface {
+    frustum(outer, inner, height, Mesh::Bricks)
+}
+
 pub fn torus(big: f64, small: f64) -> Surface {
     let (n, m) = (60, 30);
     let mut points = Vec::new();
@@ -204,4 +209,12 @@ pub fn sphere(radius: f64) -> Surface {
         }
     }
     surface(points, &triangles)
+}
+
+/// The smallest angle of all triangles, in radians.
+pub fn smallest_corner(surface: &Surface) -> f64 {
+    surface
+        .triangle_ids()
+        .map(|t| super::triangulation::smallest_angle(surface.corners(t)))
+        .fold(f64::INFINITY, f64::min)
 }

@@ -5,11 +5,14 @@
 
 mod carve;
 mod cut;
+mod cutter;
 mod error;
 mod markers;
 mod path;
 mod region;
 mod sewing;
+mod shape;
+mod slivers;
 mod strip;
 mod triangulation;
 

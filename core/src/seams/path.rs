@@ -429,3 +429,103 @@ impl<'a> Space<'a> {
         Some(h)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::fixtures::{Mesh, Noise, cylinder, strip, surface};
+    use super::*;
+
+    fn nearest(mesh: &Triangulation, p: DVec3) -> VertexId {
+        let distance = |v: &VertexId| mesh.point(*v).distance(p);
+        let all = (0..mesh.vertex_count()).map(VertexId::new);
+        all.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap()
+    }
+
+    fn length(mesh: &Triangulation, from: VertexId, to: VertexId) -> f64 {
+        let space = Space::new(mesh, vec![false; mesh.vertex_count()]);
+        let (path, taut) = space.between(from, to, [&[], &[]]).unwrap().unwrap();
+        assert_eq!(path.crossings.len(), taut.parts.len());
+        taut.length
+    }
+
+    #[test]
+    fn in_the_plane_every_path_is_the_straight_line() {
+        // A strip with its inner vertices moved at random.
+        let s = strip(80.0, 300.0);
+        let mut noise = Noise(5);
+        let shift = |(i, p): (usize, &DVec3)| {
+            let by = DVec3::new(1.2 * noise.next(), 1.8 * noise.next(), 0.0);
+            if s.is_boundary_vertex(VertexId::new(i)) { *p } else { *p + by }
+        };
+        let points = s.points().iter().enumerate().map(shift).collect();
+        let mesh = Triangulation::new(&s.with_points(points));
+        let mut noise = Noise(9);
+        for _ in 0..60 {
+            let mut any = || VertexId::new(((noise.next() + 1.0) * 535.0) as usize);
+            let (a, b) = (any(), any());
+            if a != b {
+                let exact = mesh.point(a).distance(mesh.point(b));
+                let found = length(&mesh, a, b);
+                assert!((found - exact).abs() < 1e-9 * exact, "{a} {b} {found} {exact}");
+            }
+        }
+    }
+
+    #[test]
+    fn across_a_cube_from_corner_to_corner_it_is_the_root_of_five() {
+        let corner = |i: usize| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
+        let s = surface(
+            (0..8).map(corner).collect(),
+            &[
+                [0, 2, 3],
+                [0, 3, 1],
+                [4, 5, 7],
+                [4, 7, 6],
+                [0, 1, 5],
+                [0, 5, 4],
+                [2, 6, 7],
+                [2, 7, 3],
+                [0, 4, 6],
+                [0, 6, 2],
+                [1, 3, 7],
+                [1, 7, 5],
+            ],
+        );
+        let found = length(&Triangulation::new(&s), VertexId::new(0), VertexId::new(7));
+        assert!((found - 5f64.sqrt()).abs() < 1e-12, "{found}");
+    }
+
+    #[test]
+    fn round_a_cylinder_it_is_a_helix() {
+        for mesh in Mesh::ALL {
+            let mesh = Triangulation::new(&cylinder(40.0, 200.0, mesh));
+            let a = nearest(&mesh, DVec3::new(40.0, 0.0, 20.0));
+            let b = nearest(&mesh, DVec3::new(-20.0, 34.0, 170.0));
+            let (p, q) = (mesh.point(a), mesh.point(b));
+            let turn = q.y.atan2(q.x) - p.y.atan2(p.x);
+            let exact = f64::hypot(40.0 * turn, q.z - p.z);
+            let found = length(&mesh, a, b);
+            // The polyhedron is inscribed: chords are shorter than arcs by (π / 48)² / 6 = 0.07 %.
+            assert!((found / exact - 1.0).abs() < 1e-3, "{found} {exact}");
+        }
+    }
+
+    #[test]
+    fn it_goes_round_what_is_forbidden_or_says_that_there_is_no_way() {
+        let mesh = Triangulation::new(&strip(80.0, 300.0));
+        let (a, b) = (
+            nearest(&mesh, DVec3::new(40.0, 60.0, 0.0)),
+            nearest(&mesh, DVec3::new(40.0, 240.0, 0.0)),
+        );
+        let wall = |reach: f64| -> Vec<bool> {
+            mesh.points().iter().map(|p| (p.y - 150.0).abs() < 1.0 && p.x < reach).collect()
+        };
+        let found = Space::new(&mesh, wall(50.0)).between(a, b, [&[], &[]]).unwrap().unwrap().1;
+        // The triangles at the wall's last vertex (48, 150) reach to (52, 150) and (52, 156).
+        let exact = f64::hypot(12.0, 90.0) + 6.0 + f64::hypot(12.0, 84.0);
+        assert!((found.length - exact).abs() < 1e-9, "{} {exact}", found.length);
+        assert!(Space::new(&mesh, wall(90.0)).between(a, b, [&[], &[]]).unwrap().is_none());
+    }
+}

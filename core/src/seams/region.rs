@@ -7,22 +7,11 @@
 use glam::DVec3;
 
 use super::error::{SeamError, place};
+use super::slivers::{SNAP, improve_round};
 use super::triangulation::Triangulation;
 use crate::design::RegionPlane;
-use crate::surface::{HalfEdgeId, Surface, TriangleId, VertexId};
+use crate::surface::{HalfEdgeId, Surface, VertexId};
 use crate::warning::Warning;
-
-/// A vertex nearer to a cutting curve than this part of the edge that the curve crosses moves
-/// along that edge onto the curve, instead of the edge being split there.
-///
-/// Splitting at the part `f` makes a corner of about `60° · f` in a regular triangle, so that 0.15
-/// keeps corners above some 9°. The surface changes by less than `f · ℓ · sin(bend)`: with 2 mm
-/// edges bending by 3° 0.016 mm, far below a scan's noise. A larger part would squeeze the
-/// triangles behind the moved vertex as much as it spares those in front.
-pub(super) const SNAP: f64 = 0.15;
-
-/// A crossing nearer to a vertex than this part of its edge is at the vertex.
-pub(super) const TOUCH: f64 = 1e-6;
 
 /// The covered part of a surface.
 #[derive(Debug, Clone)]
@@ -99,6 +88,10 @@ fn clip_once(work: &mut Triangulation, point: DVec3, normal: DVec3) -> Vec<bool>
             i += 1;
         }
     }
+    for v in (0..work.vertex_count()).map(VertexId::new).filter(|v| distance[v.index()] == 0.0) {
+        // Both triangles at an edge that leaves the plane lie on the same side of it.
+        improve_round(work, v, |w| distance[w.index()] != 0.0);
+    }
     let above = |v: &VertexId| distance[v.index()] > 0.0;
     work.triangles().iter().map(|corners| corners.iter().any(above)).collect()
 }
@@ -144,20 +137,11 @@ fn keep_largest(surface: &Surface) -> Result<Clipped, SeamError> {
     Ok(Clipped { surface: kept, warnings: vec![warning] })
 }
 
-/// The smallest angle of all triangles, in radians.
-#[must_use]
-pub fn smallest_corner(surface: &Surface) -> f64 {
-    surface
-        .triangle_ids()
-        .map(|t: TriangleId| super::triangulation::smallest_angle(surface.corners(t)))
-        .fold(f64::INFINITY, f64::min)
-}
-
 #[cfg(test)]
 mod tests {
     use std::f64::consts::TAU;
 
-    use super::super::fixtures::{Mesh, cylinder, sphere, torus};
+    use super::super::fixtures::{Mesh, cylinder, smallest_corner, sphere, torus};
     use super::*;
 
     fn plane(point: DVec3, normal: DVec3) -> RegionPlane {

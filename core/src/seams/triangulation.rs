@@ -140,11 +140,6 @@ impl Triangulation {
         self.outgoing(v).first().copied().filter(|&h| self.twin(h).is_none())
     }
 
-    /// The boundary half-edge that enters a boundary vertex.
-    pub(super) fn boundary_before(&self, v: VertexId) -> Option<HalfEdgeId> {
-        self.outgoing(v).last().map(|h| h.prev()).filter(|&h| self.twin(h).is_none())
-    }
-
     /// Sum of the angles at `v`, in radians.
     pub(super) fn total_angle(&self, v: VertexId) -> f64 {
         self.outgoing(v).into_iter().map(|h| self.angle(h)).sum()
