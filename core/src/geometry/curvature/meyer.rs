@@ -210,7 +210,8 @@ fn principal_fit(
     curvature: &VertexCurvature,
 ) -> ShapeOperator {
     let normal = unit(normal);
-    let (u, w) = normal.any_orthonormal_pair();
+    let u = normal.any_orthonormal_vector();
+    let w = normal.cross(u);
     let spread = (curvature.mean * curvature.mean - curvature.gaussian).max(0.0).sqrt();
     // ½ xᵀ M x − b·x to be least on |x| = 1.
     let (mut mxx, mut mxy, mut myy, mut b) = (0.0, 0.0, 0.0, DVec2::ZERO);
@@ -247,9 +248,7 @@ fn principal_fit(
     }
     let (s, c) = angle.sin_cos();
     let (kuu, kvv) = (curvature.mean + spread * c, curvature.mean - spread * c);
-    let (kuv, v) = (spread * s, normal.cross(u));
-    let kuv = if v.dot(w) < 0.0 { -kuv } else { kuv };
-    ShapeOperator { normal, u, v, kuu, kuv, kvv }
+    ShapeOperator { normal, u, v: w, kuu, kuv: spread * s, kvv }
 }
 
 /// cot α + cot β of an edge, at least a small positive number: the weight of an edge's normal

@@ -25,8 +25,8 @@ impl ShapeOperator {
     /// `tensor` is symmetric, in 1/mm.
     #[must_use]
     pub fn from_tensor(normal: DVec3, tensor: DMat3) -> Self {
-        let (u, v) = normal.any_orthonormal_pair();
-        let (u, v) = if u.cross(v).dot(normal) < 0.0 { (v, u) } else { (u, v) };
+        let u = normal.any_orthonormal_vector();
+        let v = normal.cross(u);
         let (tu, tv) = (tensor * u, tensor * v);
         let kuv = 0.5 * (u.dot(tv) + v.dot(tu));
         Self { normal, u, v, kuu: u.dot(tu), kuv, kvv: v.dot(tv) }
@@ -88,7 +88,7 @@ mod tests {
     #[test]
     fn a_tilted_operator_turns_by_eulers_formula() {
         let normal = DVec3::new(1.0, 2.0, -2.0) / 3.0;
-        let (u, _) = normal.any_orthonormal_pair();
+        let u = normal.any_orthonormal_vector();
         let v = normal.cross(u);
         let shape = ShapeOperator { normal, u, v, kuu: 0.03, kuv: 0.0, kvv: -0.01 };
         for degrees in [0.0_f64, 30.0, 60.0, 90.0, 200.0] {

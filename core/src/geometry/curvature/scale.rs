@@ -186,7 +186,8 @@ fn fit_patch(mut normal: DVec3, near: &[(DVec3, f64)], radius: f64) -> Option<Sc
     // radii inside the fit, so that its matrix has entries near one).
     let mut curved = [0.0; 3];
     let mut offset = 0.0;
-    let (mut u, mut v) = normal.any_orthonormal_pair();
+    let mut u = normal.any_orthonormal_vector();
+    let mut v = normal.cross(u);
     let total: f64 = near.iter().map(|(_, w)| w).sum();
     let mut residual = 0.0;
     for round in 0..ROUNDS {
@@ -228,7 +229,7 @@ fn fit_patch(mut normal: DVec3, near: &[(DVec3, f64)], radius: f64) -> Option<Sc
         // Turn the frame so that the patch's own gradient vanishes, and its curvatures with it.
         let turned = (normal - b * u - c * v).normalize();
         let turn = glam::DQuat::from_rotation_arc(normal, turned);
-        (u, v, normal) = ((turn * u).normalize(), turn * v, turned);
+        (u, normal) = ((turn * u).normalize(), turned);
         v = normal.cross(u);
     }
     let k = -1.0 / radius;
