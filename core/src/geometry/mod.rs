@@ -1,5 +1,14 @@
 //! Geometry of a surface: location, curvature, straightest paths, girths.
 
+mod curvature;
 mod location;
+#[cfg(test)]
+pub(crate) mod shapes;
+mod straightest;
 
+pub use curvature::{
+    Curvature, MeyerCurvature, ScaleCurvature, ScaleFit, ShapeOperator, VertexCurvature,
+    meyer_mean_and_gaussian,
+};
 pub use location::{Locator, SurfacePoint, closest_on_triangle};
+pub use straightest::{Walk, walk};

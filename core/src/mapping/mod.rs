@@ -1,1 +1,201 @@
-//! The surface-plane mapping: from woven nodes to every vertex of the surface.
+//! The surface-plane mapping (section 4.4): from the woven nodes to every vertex of the surface.
+//!
+//! Eqs. (8) and (9) give a vertex the planar place of its closest node plus its projections on that
+//! node's warp and weft threads, each in the ratio of rest length to present length. Two departures,
+//! both so that the pattern has no steps of up to half a cell times the shear:
+//!
+//! - the two projections are solved together (Gram matrix), which is Eqs. (8) and (9) where threads
+//!   cross at a right angle, and exact where the fabric is sheared;
+//! - a vertex takes the mean of what the nodes round it say, with a smooth weight that ends a few cells
+//!   away, so that the map is continuous where the closest node changes; inside the fabric and
+//!   beyond its last cells alike.
+
+use glam::{DVec2, DVec3};
+
+use crate::geometry::SurfacePoint;
+use crate::surface::Surface;
+use crate::weave::{NodeIndex, NodeSearch, WovenModel};
+
+/// A woven model that covers too little of the surface to map it.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum MappingError {
+    /// No node near a point of the surface.
+    #[error(
+        "no woven node within {limit:.0} mm of ({:.1}, {:.1}, {:.1}) mm: the surface is narrower \
+         than the spacing there; use a smaller `spacing`",
+        place.x, place.y, place.z
+    )]
+    Uncovered {
+        /// Where, in mm.
+        place: DVec3,
+        /// How far was searched, in mm.
+        limit: f64,
+    },
+}
+
+/// Nodes up to this many cells away have a say in a vertex's place. Three cells reach an internal
+/// node from every place within a cell and a half outside the fabric; farther nodes would see the
+/// surface bend away from their threads.
+const BLEND_RADIUS: f64 = 3.0;
+
+/// What a boundary node (valence below eight) says counts this much. The fabric ends in steps of
+/// whole cells, and the short rows of a step follow their own wanted strain; the rows behind them
+/// tell better where the pattern goes on. Not zero, for narrow places without internal nodes.
+const EDGE_WEIGHT: f64 = 0.01;
+
+/// Planar coordinates (mm, x along warp, y along weft) of every vertex of the surface.
+///
+/// # Errors
+/// If some vertex is far from every node.
+pub fn map_vertices(surface: &Surface, model: &WovenModel) -> Result<Vec<DVec2>, MappingError> {
+    let search = NodeSearch::new(surface, model);
+    let mut points: Vec<Option<SurfacePoint>> = vec![None; surface.vertex_count()];
+    for t in surface.triangle_ids() {
+        for (k, v) in surface.triangle(t).into_iter().enumerate() {
+            points[v.index()].get_or_insert_with(|| {
+                let mut barycentric = DVec3::ZERO;
+                barycentric[k] = 1.0;
+                SurfacePoint { triangle: t, barycentric }
+            });
+        }
+    }
+    points.into_iter().flatten().map(|point| map_point(surface, model, &search, &point)).collect()
+}
+
+/// Planar coordinates (mm) of one point of the surface.
+///
+/// # Errors
+/// If it is far from every node.
+pub fn map_point(
+    surface: &Surface,
+    model: &WovenModel,
+    search: &NodeSearch<'_>,
+    point: &SurfacePoint,
+) -> Result<DVec2, MappingError> {
+    // Corners of the surface can be a few cells from the last whole cell of the fabric.
+    let limit = 8.0 * model.spacing();
+    let place = point.position(surface);
+    let (slot, _) = search.closest(point, limit).ok_or(MappingError::Uncovered { place, limit })?;
+    let closest = model.index(slot);
+    let first = predict(model, closest, place).ok_or(MappingError::Uncovered { place, limit })?;
+    // Again round the first mean: the closest node alone may be one at the edge.
+    let mean = blend(model, place, first);
+    Ok(blend(model, place, mean) * model.spacing())
+}
+
+/// The mean of what the nodes round the index coordinates `about` say of a place.
+fn blend(model: &WovenModel, place: DVec3, about: DVec2) -> DVec2 {
+    let reach = BLEND_RADIUS.ceil() as i32;
+    let middle = NodeIndex { i: about.y.round() as i32, j: about.x.round() as i32 };
+    let mut sum = DVec2::ZERO;
+    let mut total = 0.0;
+    for di in -reach..=reach {
+        for dj in -reach..=reach {
+            let node = middle.offset(di, dj);
+            let off = DVec2::new(f64::from(node.j), f64::from(node.i)) - about;
+            let near = 1.0 - off.length_squared() / (BLEND_RADIUS * BLEND_RADIUS);
+            if near <= 0.0 {
+                continue;
+            }
+            if let Some(says) = predict(model, node, place) {
+                let part = if is_internal(model, node) { 1.0 } else { EDGE_WEIGHT };
+                let weight = part * near.powi(3);
+                sum += weight * says;
+                total += weight;
+            }
+        }
+    }
+    if total > 0.0 { sum / total } else { about }
+}
+
+/// Index coordinates (j, i) of a place as seen from one node: Eqs. (8), (9) over the spacing.
+fn predict(model: &WovenModel, node: NodeIndex, place: DVec3) -> Option<DVec2> {
+    let origin = model.place(node)?;
+    let at = |di, dj| model.place(node.offset(di, dj)).map(|p| p - origin);
+    let offset = place - origin;
+    let warp = thread(offset, at(0, 1), at(0, -1))?;
+    let weft = thread(offset, at(1, 0), at(-1, 0))?;
+    // Least squares of offset = u warp + v weft.
+    let (ww, wf, ff) = (warp.length_squared(), warp.dot(weft), weft.length_squared());
+    let (dw, df) = (offset.dot(warp), offset.dot(weft));
+    let determinant = ww * ff - wf * wf;
+    // Threads that have become parallel span no plane.
+    if determinant <= 1e-6 * ww * ff {
+        return None;
+    }
+    let u = (dw * ff - df * wf) / determinant;
+    let v = (df * ww - dw * wf) / determinant;
+    Some(DVec2::new(f64::from(node.j) + u, f64::from(node.i) + v))
+}
+
+/// Whether a node has all eight neighbours.
+fn is_internal(model: &WovenModel, node: NodeIndex) -> bool {
+    (-1..=1).all(|di| (-1..=1).all(|dj| model.point(node.offset(di, dj)).is_some()))
+}
+
+/// The thread on the side of the offset, pointing to growing index; the existing one at the edge.
+fn thread(offset: DVec3, ahead: Option<DVec3>, behind: Option<DVec3>) -> Option<DVec3> {
+    match (ahead, behind) {
+        (Some(a), Some(b)) => Some(if offset.dot(a - b) >= 0.0 { a } else { -b }),
+        (Some(a), None) => Some(a),
+        (None, Some(b)) => Some(-b),
+        (None, None) => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::VertexId;
+    use crate::weave::lay;
+
+    fn grid(nx: usize, ny: usize, f: impl Fn(f64, f64) -> DVec3) -> (Surface, Vec<DVec2>) {
+        let mut points = Vec::new();
+        let mut plane = Vec::new();
+        for i in 0..=ny {
+            for j in 0..=nx {
+                let p = DVec2::new(j as f64, i as f64) * 2.0 + DVec2::new(0.3, 0.7);
+                plane.push(p);
+                points.push(f(p.x, p.y));
+            }
+        }
+        let id = |i: usize, j: usize| VertexId::new(i * (nx + 1) + j);
+        let mut triangles = Vec::new();
+        for i in 0..ny {
+            for j in 0..nx {
+                triangles.push([id(i, j), id(i, j + 1), id(i + 1, j + 1)]);
+                triangles.push([id(i, j), id(i + 1, j + 1), id(i + 1, j)]);
+            }
+        }
+        (Surface::new(points, triangles).unwrap(), plane)
+    }
+
+    #[test]
+    fn an_affine_map_with_shear_is_recovered_exactly() {
+        let (surface, plane) = grid(30, 20, |x, y| DVec3::new(1.2 * x + 0.3 * y, 0.9 * y, 4.0));
+        let model = lay(&surface, &plane, 5.0);
+        let mapped = map_vertices(&surface, &model).unwrap();
+        for (got, want) in mapped.iter().zip(&plane) {
+            assert!(got.distance(*want) < 1e-9, "{got} {want}");
+        }
+    }
+
+    #[test]
+    fn a_cylinder_is_mapped_to_a_twentieth_of_a_millimetre() {
+        let r = 40.0;
+        let (surface, plane) =
+            grid(60, 20, |x, y| DVec3::new(r * (x / r).sin(), y, r * (x / r).cos()));
+        let model = lay(&surface, &plane, 5.0);
+        let mapped = map_vertices(&surface, &model).unwrap();
+        let worst = mapped.iter().zip(&plane).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        assert!(worst < 0.05, "{worst}");
+    }
+
+    #[test]
+    fn a_surface_without_fabric_is_refused_by_place() {
+        let (surface, _) = grid(2, 2, |x, y| DVec3::new(x, y, 0.0));
+        let empty = WovenModel::empty(1.0, NodeIndex { i: 0, j: 0 }, NodeIndex { i: 1, j: 1 });
+        let message = map_vertices(&surface, &empty).unwrap_err().to_string();
+        assert!(message.contains("(0.3, 0.7, 0.0) mm"), "{message}");
+    }
+}

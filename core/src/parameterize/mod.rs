@@ -1,1 +1,5 @@
 //! The initial planar parameterization Ω.
+
+mod sparse;
+
+pub use sparse::{Factor, Pattern, SparseError};

@@ -1,9 +1,22 @@
 //! Raw triangles become a validated surface once; later stages cannot be handed anything else.
 
+mod connectivity;
+mod defect;
+mod holes;
 mod index;
+mod orientation;
+mod polygon;
 mod raw;
+mod read;
+mod shape;
 mod topology;
+mod validate;
+mod weld;
 
+pub use defect::{Defect, DefectKind, SurfaceError};
 pub use index::{HalfEdgeId, TriangleId, VertexId};
 pub use raw::RawMesh;
+pub use read::{Format, ReadError, read};
+pub use shape::{Shape, shape_of};
 pub use topology::{BoundaryLoop, Surface, TopologyError};
+pub use validate::{SurfaceOptions, Validated, validate};

@@ -1,0 +1,111 @@
+//! Keeping the surface covered: new nodes where a gap has opened near the boundary (section 5.2).
+//!
+//! The paper says that nodes are inserted and not how. Extrapolating every missing neighbour of a
+//! boundary node lays fabric over fabric that is already there, and the number of nodes explodes.
+//! So a node is inserted only where (a) a thread that is already there, prolonged straight on, stays
+//! inside the surface with some room to spare, (b) no node lies nearer than half a thread's
+//! distance, (c) the cells it closes lie the right way round, and (d) a whole cell holds it.
+
+use glam::DVec3;
+
+use crate::geometry::{SurfacePoint, walk};
+use crate::surface::Surface;
+use crate::weave::{NodeIndex, NodeSearch, RestLengths, WovenModel};
+
+/// A thread is prolonged only where the surface goes on for this many times its wanted length: a
+/// node on the very edge would leave again at the next step.
+const ROOM: f64 = 1.1;
+
+/// No node may lie nearer than this many times the spacing: half a cell, below which two threads
+/// would be one.
+const CLEARANCE: f64 = 0.5;
+
+/// The model with one ring of nodes added wherever a gap has opened, and their number.
+#[must_use]
+pub fn grow(surface: &Surface, model: &WovenModel, rest: &RestLengths) -> (WovenModel, usize) {
+    let search = NodeSearch::new(surface, model);
+    let mut grown = model.clone();
+    let mut added: Vec<NodeIndex> = Vec::new();
+    for node in gaps(model) {
+        let Some(point) = prolong(surface, model, rest, node) else { continue };
+        if search.any_within(&point, CLEARANCE * model.spacing()) {
+            continue;
+        }
+        let place = point.position(surface);
+        let crowded = added.iter().any(|&other| {
+            grown.place(other).is_some_and(|p| p.distance(place) < CLEARANCE * model.spacing())
+        });
+        if !crowded {
+            grown.put(node, point, surface);
+            added.push(node);
+        }
+    }
+    // One pass over the new nodes: a cell that lies the wrong way round loses its new corners.
+    let folded: Vec<NodeIndex> =
+        added.iter().copied().filter(|&node| folds(surface, &grown, node)).collect();
+    for node in folded {
+        if let Some(slot) = grown.slot(node) {
+            grown.remove(slot);
+        }
+    }
+    grown.drop_loose_nodes();
+    let count = added.iter().filter(|&&node| grown.point(node).is_some()).count();
+    (grown, count)
+}
+
+/// The empty places beside a node, in order.
+fn gaps(model: &WovenModel) -> Vec<NodeIndex> {
+    let mut gaps = Vec::new();
+    for slot in model.filled() {
+        let node = model.index(slot);
+        for (di, dj) in [(0, 1), (0, -1), (1, 0), (-1, 0)] {
+            let beside = node.offset(di, dj);
+            if model.point(beside).is_none() {
+                gaps.push(beside);
+            }
+        }
+    }
+    gaps.sort_unstable();
+    gaps.dedup();
+    gaps
+}
+
+/// Where the threads that end beside a gap would go on: the mean of their ends.
+fn prolong(
+    surface: &Surface,
+    model: &WovenModel,
+    rest: &RestLengths,
+    gap: NodeIndex,
+) -> Option<SurfacePoint> {
+    let mut ends: Vec<SurfacePoint> = Vec::new();
+    for (di, dj) in [(0, -1), (0, 1), (-1, 0), (1, 0)] {
+        let Some(from) = model.point(gap.offset(di, dj)) else { continue };
+        let Some(before) = model.place(gap.offset(2 * di, 2 * dj)) else { continue };
+        let wanted = if di == 0 { rest.warp(gap.i) } else { rest.weft() };
+        let direction = from.position(surface) - before;
+        if walk(surface, &from, direction, ROOM * wanted).met_boundary {
+            return None;
+        }
+        ends.push(walk(surface, &from, direction, wanted).end);
+    }
+    let first = *ends.first()?;
+    let mean: DVec3 =
+        ends.iter().map(|end| end.position(surface)).sum::<DVec3>() / ends.len() as f64;
+    let off = mean - first.position(surface);
+    let path = walk(surface, &first, off, off.length());
+    (!path.met_boundary).then_some(path.end)
+}
+
+/// Whether a whole cell at this node is turned over against the surface.
+fn folds(surface: &Surface, model: &WovenModel, node: NodeIndex) -> bool {
+    let Some(point) = model.point(node) else { return false };
+    let normal = surface.normal(point.triangle);
+    [(0, 0), (-1, 0), (0, -1), (-1, -1)].into_iter().any(|(di, dj)| {
+        let corner = node.offset(di, dj);
+        let at = |i, j| model.place(corner.offset(i, j));
+        let (Some(a), Some(b), Some(c), Some(d)) = (at(0, 0), at(0, 1), at(1, 1), at(1, 0)) else {
+            return false;
+        };
+        (c - a).cross(d - b).dot(normal) <= 0.0
+    })
+}

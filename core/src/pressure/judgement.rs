@@ -1,0 +1,288 @@
+//! What was reached, judged against what was asked, at every annotated point.
+
+use glam::{DVec2, DVec3};
+
+use super::formula::{
+    FLAT_CURVATURE, LocalCurvature, Stretch, pressing_curvature, pressure_kpa, warp_strain,
+};
+use super::reached::{Along, patch, thread_strain};
+use super::{Annotation, Targets};
+use crate::design::{Fabric, PressureModel};
+use crate::geometry::closest_on_triangle;
+use crate::parameters::Parameters;
+use crate::surface::{HalfEdgeId, Surface};
+use crate::weave::{NodeIndex, WovenModel};
+
+/// Why a wanted pressure was missed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Reason {
+    /// The surface is flat or hollow along the thread: no tension presses there.
+    FlatOrHollow {
+        /// Curvature through which warp tension would press, in 1/mm.
+        curvature: f64,
+    },
+    /// The strain needed is more than the fabric bears.
+    OverStrain {
+        /// Strain that this point alone would need.
+        needed: f64,
+        /// The fabric's limit.
+        limit: f64,
+    },
+    /// Other points on the same thread, or on threads too close to differ, want another strain.
+    ThreadConflict {
+        /// Those points, by number from 0.
+        others: Vec<usize>,
+    },
+    /// The fit was stopped before it came to rest.
+    NotConverged,
+    /// The point lies near a free edge of the brace, where threads find no hold.
+    FreeEdge {
+        /// Distance to the edge, in mm.
+        distance: f64,
+    },
+    /// The shape of the limb does not let this thread take its strain.
+    Shape {
+        /// Wanted strain of the thread.
+        wanted: f64,
+        /// Reached strain of the thread.
+        reached: f64,
+    },
+}
+
+impl Reason {
+    /// A frozen short name.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::FlatOrHollow { .. } => "flat_or_hollow",
+            Self::OverStrain { .. } => "over_strain",
+            Self::ThreadConflict { .. } => "thread_conflict",
+            Self::NotConverged => "not_converged",
+            Self::FreeEdge { .. } => "free_edge",
+            Self::Shape { .. } => "shape",
+        }
+    }
+
+    /// What it means and what can be done, for people.
+    #[must_use]
+    pub fn text(&self) -> String {
+        match self {
+            Self::FlatOrHollow { curvature } => format!(
+                "the limb is flat or hollow along the thread here (curvature {:.1} per m), so no \
+                 tension presses: use a pad under the brace, or ask elsewhere",
+                1000.0 * curvature
+            ),
+            Self::OverStrain { needed, limit } => format!(
+                "it needs a strain of {needed:.2}, and this fabric bears {limit:.2}: take a \
+                 stiffer fabric or ask less"
+            ),
+            Self::ThreadConflict { others } => {
+                let names: Vec<String> = others.iter().map(|k| (k + 1).to_string()).collect();
+                format!(
+                    "point {} on the same thread wants another strain: a thread has one strain \
+                     all round the limb",
+                    names.join(" and ")
+                )
+            }
+            Self::NotConverged => "the fit was stopped before it came to rest: allow more \
+                                   iterations"
+                .to_owned(),
+            Self::FreeEdge { distance } => format!(
+                "it lies {distance:.0} mm from the brace's free edge: move it inward or let the \
+                 brace reach further"
+            ),
+            Self::Shape { wanted, reached } => format!(
+                "the limb's shape does not let this thread take its strain: {reached:.3} instead \
+                 of {wanted:.3}; a seam or dart nearby would free it"
+            ),
+        }
+    }
+}
+
+/// What was reached at an annotated point.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Judgement {
+    /// Computed pressure with one tension along each thread (Lemma 3), in kPa; with the paper's
+    /// formula Eq. (2) from the closest node's own springs.
+    pub got_kpa: f64,
+    /// Computed pressure from the fit's own strains, averaged over the curvature radius, in kPa.
+    pub got_local_kpa: f64,
+    /// Curvature along the threads as they run now.
+    pub curvature: LocalCurvature,
+    /// Strain of the warp thread through the point.
+    pub warp_strain: f64,
+    /// Strain of the weft thread through the point.
+    pub weft_strain: f64,
+    /// The row of its closest node.
+    pub row: i32,
+    /// Place in the pattern, in mm.
+    pub place: DVec2,
+    /// Why it was missed; `None` where it was met.
+    pub reason: Option<Reason>,
+}
+
+/// A pressure is never called missed by less than this, in kPa: below what a sensor under a brace
+/// resolves (0.5 mmHg is 0.07 kPa).
+const LEAST_MISS_KPA: f64 = 0.05;
+
+/// The fitted brace that is judged.
+#[derive(Clone, Copy)]
+pub struct Brace<'a> {
+    /// The cut surface.
+    pub disk: &'a Surface,
+    /// Pattern coordinates by vertex, in mm.
+    pub coordinates: &'a [DVec2],
+    /// The boundary half-edges that are not sewn.
+    pub free_edges: &'a [HalfEdgeId],
+    /// The woven nodes.
+    pub model: &'a WovenModel,
+    /// The wanted strains.
+    pub targets: &'a Targets,
+    /// Whether the fit came to rest.
+    pub converged: bool,
+}
+
+/// Judges every annotation.
+#[must_use]
+pub fn judge(
+    brace: &Brace<'_>,
+    annotations: &[Annotation],
+    fabric: &Fabric,
+    pressure_model: PressureModel,
+    parameters: &Parameters,
+) -> Vec<Judgement> {
+    (0..annotations.len())
+        .map(|k| judge_one(brace, annotations, k, fabric, pressure_model, parameters))
+        .collect()
+}
+
+fn judge_one(
+    brace: &Brace<'_>,
+    annotations: &[Annotation],
+    k: usize,
+    fabric: &Fabric,
+    pressure_model: PressureModel,
+    parameters: &Parameters,
+) -> Judgement {
+    let annotation = &annotations[k];
+    let place = annotation.point.interpolate(brace.disk, brace.coordinates);
+    let round =
+        patch(brace.disk, brace.coordinates, &annotation.point, parameters.curvature_radius);
+    let curvature = round.map_or(brace.targets.curvatures[k], |patch| LocalCurvature {
+        warp: annotation.shape.normal_curvature(patch.warp),
+        weft: annotation.shape.normal_curvature(patch.weft),
+        mean: annotation.shape.mean(),
+    });
+    let local = round.map_or(Stretch::without_shear(0.0, 0.0), |patch| patch.stretch);
+    let strain = |along| thread_strain(brace.disk, brace.coordinates, place, along);
+    let warp_reached = strain(Along::Warp).unwrap_or(local.warp);
+    let weft_reached = strain(Along::Weft).unwrap_or(local.weft);
+    let along_threads = Stretch::without_shear(warp_reached, weft_reached);
+    let node = brace.targets.nodes[k];
+    let stretch = match pressure_model {
+        PressureModel::Laplace => along_threads,
+        PressureModel::Paper => springs_at(brace.model, node).unwrap_or(along_threads),
+    };
+    let got_kpa = pressure_kpa(pressure_model, fabric, &curvature, &stretch);
+    let got_local_kpa = pressure_kpa(pressure_model, fabric, &curvature, &local);
+    let most = (parameters.miss_tolerance * annotation.kpa).max(LEAST_MISS_KPA);
+    let reason = ((got_kpa - annotation.kpa).abs() > most).then(|| {
+        why(brace, annotations, k, fabric, pressure_model, parameters, &curvature, warp_reached)
+    });
+    Judgement {
+        got_kpa,
+        got_local_kpa,
+        curvature,
+        warp_strain: warp_reached,
+        weft_strain: weft_reached,
+        row: node.i,
+        place,
+        reason,
+    }
+}
+
+/// Mean strains of the (at most four) warp and weft springs at a node, as in Eq. (2).
+fn springs_at(model: &WovenModel, node: NodeIndex) -> Option<Stretch> {
+    let here = model.place(node)?;
+    let mean = |di: i32, dj: i32| {
+        let strains: Vec<f64> = [1, -1]
+            .into_iter()
+            .filter_map(|sign| model.place(node.offset(sign * di, sign * dj)))
+            .map(|other| here.distance(other) / model.spacing() - 1.0)
+            .collect();
+        (!strains.is_empty()).then(|| strains.iter().sum::<f64>() / strains.len() as f64)
+    };
+    Some(Stretch::without_shear(mean(0, 1)?, mean(1, 0)?))
+}
+
+#[expect(clippy::too_many_arguments, reason = "one private caller, and every one is evidence")]
+fn why(
+    brace: &Brace<'_>,
+    annotations: &[Annotation],
+    k: usize,
+    fabric: &Fabric,
+    pressure_model: PressureModel,
+    parameters: &Parameters,
+    curvature: &LocalCurvature,
+    reached: f64,
+) -> Reason {
+    let pressing = pressing_curvature(pressure_model, curvature);
+    if pressing <= FLAT_CURVATURE {
+        return Reason::FlatOrHollow { curvature: pressing };
+    }
+    let needs = |k: usize, curvature: LocalCurvature| {
+        warp_strain(pressure_model, fabric, &[(annotations[k].kpa, curvature)])
+    };
+    let needed = needs(k, *curvature).unwrap_or(0.0);
+    if needed > fabric.max_strain {
+        return Reason::OverStrain { needed, limit: fabric.max_strain };
+    }
+    let targets = brace.targets;
+    let row = targets.nodes[k].i;
+    // Below a hundredth of strain two wishes are one.
+    let differs = |a: f64, b: f64| (a - b).abs() > (parameters.miss_tolerance * a).max(0.01);
+    let others: Vec<usize> = (0..annotations.len())
+        .filter(|&other| other != k)
+        .filter(|&other| {
+            let apart = f64::from((targets.nodes[other].i - row).abs()) * brace.model.spacing();
+            apart == 0.0 || apart < parameters.row_spacing
+        })
+        .filter(|&other| {
+            needs(other, targets.curvatures[other]).is_some_and(|strain| differs(needed, strain))
+        })
+        .collect();
+    let fitted = targets
+        .threads
+        .iter()
+        .find(|thread| thread.annotations.contains(&k))
+        .map_or(0.0, |thread| thread.fitted);
+    if !others.is_empty() && differs(needed, fitted) {
+        return Reason::ThreadConflict { others };
+    }
+    if !brace.converged {
+        return Reason::NotConverged;
+    }
+    let distance = distance_to_edges(brace, annotation_place(brace, &annotations[k]));
+    if distance < parameters.curvature_radius {
+        return Reason::FreeEdge { distance };
+    }
+    Reason::Shape { wanted: fitted, reached }
+}
+
+fn annotation_place(brace: &Brace<'_>, annotation: &Annotation) -> DVec3 {
+    annotation.point.position(brace.disk)
+}
+
+/// Distance in space from a place to the nearest free edge, in mm.
+fn distance_to_edges(brace: &Brace<'_>, place: DVec3) -> f64 {
+    brace
+        .free_edges
+        .iter()
+        .map(|&h| {
+            let (a, b) = (brace.disk.point(brace.disk.from(h)), brace.disk.point(brace.disk.to(h)));
+            // A triangle that has shrunk to the edge.
+            let w = closest_on_triangle(place, [a, b, b]);
+            place.distance(w.x * a + (w.y + w.z) * b)
+        })
+        .fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,230 @@
+//! What a pattern reaches at an annotated point: strains along its threads and round it.
+//!
+//! Everything here is read from the pattern alone (pattern coordinates against places in space), so
+//! that it holds for every way of fitting and can be recomputed from the written files.
+
+use std::collections::{BTreeSet, VecDeque};
+
+use glam::{DVec2, DVec3};
+
+use super::Stretch;
+use crate::geometry::SurfacePoint;
+use crate::surface::{HalfEdgeId, Surface, TriangleId};
+
+/// How a triangle of the pattern is stretched when worn: the columns of F = d(space)/d(pattern).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TriangleStretch {
+    /// F e_x: where a unit of warp thread goes.
+    pub warp: DVec3,
+    /// F e_y: where a unit of weft thread goes.
+    pub weft: DVec3,
+    /// Area in the pattern, in mm²; negative for a flipped triangle.
+    pub rest_area: f64,
+}
+
+/// The stretch of a triangle; `None` where it has no area in the pattern.
+#[must_use]
+pub fn triangle_stretch(
+    disk: &Surface,
+    coordinates: &[DVec2],
+    t: TriangleId,
+) -> Option<TriangleStretch> {
+    let [p, q, r] = disk.corners(t);
+    let [a, b, c] = disk.triangle(t).map(|v| coordinates[v.index()]);
+    let (u, v) = (b - a, c - a);
+    let area = u.perp_dot(v);
+    (area != 0.0).then(|| TriangleStretch {
+        warp: ((q - p) * v.y - (r - p) * u.y) / area,
+        weft: ((r - p) * u.x - (q - p) * v.x) / area,
+        rest_area: 0.5 * area,
+    })
+}
+
+/// The fabric round a point: its threads' directions and its mean stretch.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Patch {
+    /// Direction of the warp thread in space (not of unit length).
+    pub warp: DVec3,
+    /// Direction of the weft thread.
+    pub weft: DVec3,
+    /// Mean strains and area stretch.
+    pub stretch: Stretch,
+}
+
+/// Means over the triangles within `radius` mm of a point and connected to it, weighted by their
+/// area in the pattern; at least the point's own triangle.
+#[must_use]
+pub fn patch(
+    disk: &Surface,
+    coordinates: &[DVec2],
+    point: &SurfacePoint,
+    radius: f64,
+) -> Option<Patch> {
+    let centre = point.position(disk);
+    let (mut warp, mut weft) = (DVec3::ZERO, DVec3::ZERO);
+    let (mut warp_length, mut weft_length, mut area, mut worn) = (0.0, 0.0, 0.0, 0.0);
+    for t in triangles_within(disk, point.triangle, centre, radius) {
+        let Some(stretch) = triangle_stretch(disk, coordinates, t) else { continue };
+        let w = stretch.rest_area.abs();
+        warp += w * stretch.warp;
+        weft += w * stretch.weft;
+        warp_length += w * stretch.warp.length();
+        weft_length += w * stretch.weft.length();
+        area += w;
+        worn += disk.area(t);
+    }
+    (area > 0.0).then(|| Patch {
+        warp,
+        weft,
+        stretch: Stretch {
+            warp: warp_length / area - 1.0,
+            weft: weft_length / area - 1.0,
+            area: worn / area,
+        },
+    })
+}
+
+fn triangles_within(
+    disk: &Surface,
+    start: TriangleId,
+    centre: DVec3,
+    radius: f64,
+) -> Vec<TriangleId> {
+    let mut seen = BTreeSet::from([start]);
+    let mut queue = VecDeque::from([start]);
+    let mut found = Vec::new();
+    while let Some(t) = queue.pop_front() {
+        found.push(t);
+        for k in 0..3 {
+            let Some(twin) = disk.twin(HalfEdgeId::of(t, k)) else { continue };
+            let next = twin.triangle();
+            let [a, b, c] = disk.corners(next);
+            if ((a + b + c) / 3.0).distance(centre) <= radius && seen.insert(next) {
+                queue.push_back(next);
+            }
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+/// Which way a thread runs in the pattern.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Along {
+    /// A row: constant y.
+    Warp,
+    /// A column: constant x.
+    Weft,
+}
+
+/// Strain of the one thread through a place of the pattern: its worn length over its rest length,
+/// less one. By Lemma 3 its tension, and so its strain, evens out to this along the whole thread.
+///
+/// The thread is the straight line of the pattern through `place`, as far as the pattern goes on
+/// both sides without a gap. `None` outside the pattern.
+#[must_use]
+pub fn thread_strain(
+    disk: &Surface,
+    coordinates: &[DVec2],
+    place: DVec2,
+    along: Along,
+) -> Option<f64> {
+    // In coordinates (s along the thread, h across it).
+    let turn = |p: DVec2| match along {
+        Along::Warp => p,
+        Along::Weft => DVec2::new(p.y, p.x),
+    };
+    let place = turn(place);
+    let mut pieces: Vec<(f64, f64, f64)> = Vec::new();
+    for t in disk.triangle_ids() {
+        let plane = disk.triangle(t).map(|v| turn(coordinates[v.index()]) - place);
+        let corners = disk.corners(t);
+        let mut ends: Vec<(f64, DVec3)> = Vec::with_capacity(3);
+        for k in 0..3 {
+            let (a, b) = (plane[k], plane[(k + 1) % 3]);
+            // Half-open, so that a line through a vertex crosses each triangle twice or not at all.
+            if (a.y < 0.0) != (b.y < 0.0) {
+                let f = a.y / (a.y - b.y);
+                ends.push((a.x + f * (b.x - a.x), corners[k].lerp(corners[(k + 1) % 3], f)));
+            }
+        }
+        if let [(s0, p0), (s1, p1)] = ends[..] {
+            pieces.push((s0.min(s1), s0.max(s1), p0.distance(p1)));
+        }
+    }
+    pieces.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    // A gap is an opening of the pattern; a hundredth of a typical edge is rounding.
+    let tolerance = 0.01 * disk.mean_edge_length();
+    let (mut rest, mut worn) = (0.0, 0.0);
+    let mut reach = f64::NEG_INFINITY;
+    let mut holds_place = false;
+    for (low, high, length) in pieces {
+        if low > reach + tolerance {
+            if holds_place {
+                break;
+            }
+            (rest, worn) = (0.0, 0.0);
+        }
+        holds_place |= low <= tolerance && high >= -tolerance;
+        rest += high - low;
+        worn += length;
+        reach = reach.max(high);
+    }
+    (holds_place && rest > 0.0).then(|| worn / rest - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::VertexId;
+
+    /// Three strips side by side along x, stretched 10 %, 20 % and 60 % along warp, 5 % along weft,
+    /// of rest widths 10, 20 and 30 mm.
+    fn strips() -> (Surface, Vec<DVec2>) {
+        let rest = [0.0, 10.0, 30.0, 60.0];
+        let worn = [0.0, 11.0, 35.0, 83.0];
+        let mut points = Vec::new();
+        let mut plane = Vec::new();
+        for y in [0.0, 20.0, 40.0] {
+            for k in 0..4 {
+                points.push(DVec3::new(worn[k], 1.05 * y, 0.0));
+                plane.push(DVec2::new(rest[k], y));
+            }
+        }
+        let id = |i: usize, j: usize| VertexId::new(4 * i + j);
+        let mut triangles = Vec::new();
+        for i in 0..2 {
+            for j in 0..3 {
+                triangles.push([id(i, j), id(i, j + 1), id(i + 1, j + 1)]);
+                triangles.push([id(i, j), id(i + 1, j + 1), id(i + 1, j)]);
+            }
+        }
+        (Surface::new(points, triangles).unwrap(), plane)
+    }
+
+    #[test]
+    fn a_threads_strain_is_its_whole_lengthening() {
+        let (disk, plane) = strips();
+        for y in [7.0, 20.0, 33.0] {
+            let strain = thread_strain(&disk, &plane, DVec2::new(5.0, y), Along::Warp).unwrap();
+            assert!((strain - 23.0 / 60.0).abs() < 1e-12, "{y}: {strain}");
+        }
+        let strain = thread_strain(&disk, &plane, DVec2::new(5.0, 7.0), Along::Weft).unwrap();
+        assert!((strain - 0.05).abs() < 1e-12);
+        assert_eq!(thread_strain(&disk, &plane, DVec2::new(70.0, 7.0), Along::Warp), None);
+    }
+
+    #[test]
+    fn a_patch_takes_the_means_of_its_triangles() {
+        let (disk, plane) = strips();
+        let point =
+            SurfacePoint { triangle: TriangleId::new(0), barycentric: DVec3::splat(1.0 / 3.0) };
+        let near = patch(&disk, &plane, &point, 0.0).unwrap();
+        assert!((near.stretch.warp - 0.1).abs() < 1e-12);
+        assert!((near.stretch.weft - 0.05).abs() < 1e-12);
+        assert!((near.stretch.area - 1.1 * 1.05).abs() < 1e-12);
+        let far = patch(&disk, &plane, &point, 1000.0).unwrap();
+        assert!((far.stretch.warp - 23.0 / 60.0).abs() < 1e-12);
+        assert!(far.warp.normalize().distance(DVec3::X) < 1e-12);
+    }
+}

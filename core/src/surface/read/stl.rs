@@ -1,0 +1,220 @@
+//! STL by `stl_io`, as a soup: every triangle has three points of its own.
+//!
+//! `stl_io` takes every file that begins with `solid ` for text, and many binary files do; here
+//! the length decides, which in binary STL follows from the number of triangles. Its own merging
+//! of points (equal bits, so that 0 and −0 differ) is not used: see
+//! [`validate`](crate::surface::validate()).
+
+use std::io::{Cursor, ErrorKind};
+
+use glam::DVec3;
+
+use super::{Format, RawMesh, ReadError, excerpt};
+
+/// Bytes of the header of binary STL, and with the number of triangles after it.
+const HEADER: usize = 80;
+const PREAMBLE: usize = HEADER + 4;
+/// Bytes of a triangle in binary STL.
+const TRIANGLE: usize = 50;
+
+pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, ReadError> {
+    let declared = declared_triangles(bytes);
+    let complete = declared.map(|n| PREAMBLE as u64 + n * TRIANGLE as u64);
+    let is_binary = complete == Some(bytes.len() as u64) || !looks_like_text(bytes);
+    if !is_binary {
+        return read_text(bytes);
+    }
+    let (Some(declared), Some(complete)) = (declared, complete) else {
+        return Err(ReadError::NotThisFormat {
+            format: Format::Stl,
+            reason: "it begins neither with `solid` nor with the 84 bytes of a binary header"
+                .to_owned(),
+        });
+    };
+    if (bytes.len() as u64) < complete {
+        let present = (bytes.len() - PREAMBLE) / TRIANGLE;
+        return Err(if bytes.iter().take(HEADER).all(|&b| is_text_byte(b)) {
+            ReadError::NotThisFormat {
+                format: Format::Stl,
+                reason: format!(
+                    "it does not begin with `solid`, and as a binary file it would have \
+                     {declared} triangles but holds {present}"
+                ),
+            }
+        } else {
+            ReadError::Truncated {
+                format: Format::Stl,
+                detail: format!("it declares {declared} triangles but holds {present}"),
+            }
+        });
+    }
+    let mut copy = bytes.to_vec();
+    // The header is free text; without its `solid` the crate knows the file as binary.
+    copy[..HEADER].fill(0);
+    collect(&mut Cursor::new(copy)).map_err(|error| ReadError::Malformed {
+        format: Format::Stl,
+        place: "the body".to_owned(),
+        detail: excerpt(&error.to_string()),
+    })
+}
+
+fn declared_triangles(bytes: &[u8]) -> Option<u64> {
+    let count = bytes.get(HEADER..PREAMBLE)?;
+    Some(u64::from(u32::from_le_bytes(count.try_into().ok()?)))
+}
+
+fn is_text_byte(byte: u8) -> bool {
+    byte.is_ascii_graphic() || byte.is_ascii_whitespace()
+}
+
+/// Whether the bytes are a text STL, broken or whole: `solid` and no byte that no text has.
+fn looks_like_text(bytes: &[u8]) -> bool {
+    let start = bytes.trim_ascii_start();
+    start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !bytes.contains(&0)
+}
+
+fn collect(source: &mut Cursor<Vec<u8>>) -> std::io::Result<RawMesh> {
+    let mut raw = RawMesh::default();
+    for triangle in stl_io::create_stl_reader(source)? {
+        let first = raw.points.len();
+        raw.points.extend(triangle?.vertices.map(|v| DVec3::from_array(v.0.map(f64::from))));
+        raw.polygons.push(vec![first, first + 1, first + 2]);
+    }
+    Ok(raw)
+}
+
+fn read_text(bytes: &[u8]) -> Result<RawMesh, ReadError> {
+    // The name may be in any encoding, or missing, and keywords in any case.
+    let text = String::from_utf8_lossy(bytes).to_ascii_lowercase();
+    let body = text.trim_start().split_once('\n').map_or("", |(_, body)| body);
+    let normal = format!("solid \n{body}");
+    collect(&mut Cursor::new(normal.into_bytes())).map_err(|error| explain(&text, &error))
+}
+
+/// The first line at fault, which `stl_io` does not tell.
+fn explain(text: &str, error: &std::io::Error) -> ReadError {
+    let format = Format::Stl;
+    let mut facets = 0usize;
+    for (i, line) in text.lines().enumerate().skip(1) {
+        let mut words = line.split_whitespace();
+        let numbers = match (words.next(), words.next()) {
+            (Some("facet"), _) => {
+                facets += 1;
+                line.split_whitespace().skip(2)
+            }
+            (Some("vertex"), _) => line.split_whitespace().skip(1),
+            _ => continue,
+        };
+        let place = format!("line {} (face {})", i + 1, facets.saturating_sub(1));
+        for word in numbers {
+            match word.parse::<f32>() {
+                Ok(number) if number.is_finite() => {}
+                _ => return ReadError::NotANumber { format, place, text: excerpt(word) },
+            }
+        }
+    }
+    if error.kind() == ErrorKind::UnexpectedEof {
+        let detail = format!("it ends within or after face {} without `endsolid`", {
+            facets.saturating_sub(1)
+        });
+        return ReadError::Truncated { format, detail };
+    }
+    ReadError::Malformed {
+        format,
+        place: format!("one of the {facets} faces"),
+        detail: excerpt(&error.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read_bytes(bytes: &[u8]) -> Result<RawMesh, ReadError> {
+        super::super::read(bytes, Format::Stl)
+    }
+
+    const TEXT: &str = "solid wrist\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   \
+                        vertex 1.5 0 0\n   vertex 0 2e-1 0\n  endloop\n endfacet\nendsolid wrist\n";
+
+    fn binary(header: &[u8], triangles: &[[[f32; 3]; 3]]) -> Vec<u8> {
+        let mut bytes = header.to_vec();
+        bytes.resize(HEADER, b' ');
+        bytes.extend(u32::try_from(triangles.len()).unwrap().to_le_bytes());
+        for triangle in triangles {
+            bytes.extend([0u8; 12]);
+            bytes.extend(triangle.iter().flatten().flat_map(|x| x.to_le_bytes()));
+            bytes.extend([0u8; 2]);
+        }
+        bytes
+    }
+
+    const TWO: [[[f32; 3]; 3]; 2] = [
+        [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.1]],
+        [[0.0, 0.0, 0.0], [1.0, 1.0, 0.1], [0.0, 1.0, -0.0]],
+    ];
+
+    #[test]
+    fn text_is_read_with_every_triangles_own_points() {
+        let raw = read_bytes(TEXT.as_bytes()).unwrap();
+        assert_eq!(raw.polygons, [vec![0, 1, 2]]);
+        assert_eq!(raw.points[1], DVec3::new(1.5, 0.0, 0.0));
+        assert_eq!(raw.points[2].y, f64::from(0.2f32));
+        let shouting = TEXT.to_uppercase().replace("SOLID WRIST", "SOLID");
+        assert_eq!(read_bytes(shouting.as_bytes()).unwrap(), raw);
+    }
+
+    #[test]
+    fn binary_is_read_even_when_it_begins_with_solid() {
+        for header in [&b"wovenfit"[..], b"solid made by a CAD program\nfacet"] {
+            let raw = read_bytes(&binary(header, &TWO)).unwrap();
+            assert_eq!(raw.points.len(), 6);
+            assert_eq!(raw.polygons, [vec![0, 1, 2], vec![3, 4, 5]]);
+            assert_eq!(raw.points[4], DVec3::new(1.0, 1.0, f64::from(0.1f32)));
+        }
+    }
+
+    #[test]
+    fn faults_are_named() {
+        let message = |bytes: &[u8]| read_bytes(bytes).unwrap_err().to_string();
+        let mut short = binary(b"\x01bin", &TWO);
+        short.truncate(150);
+        assert_eq!(
+            message(&short),
+            "the STL file is truncated: it declares 2 triangles but holds 1; copy or export it \
+             again"
+        );
+        // A huge declared number neither allocates nor loops.
+        short[HEADER..PREAMBLE].copy_from_slice(&u32::MAX.to_le_bytes());
+        assert!(message(&short).contains("declares 4294967295 triangles but holds 1"));
+        assert_eq!(
+            message(TEXT.replace("1.5", "1,5").as_bytes()),
+            "line 5 (face 0) of the STL file: `1,5` is not a number; export it again"
+        );
+        assert_eq!(
+            message(TEXT.replace("1.5", "nan").as_bytes()),
+            "line 5 (face 0) of the STL file: `nan` is not a number; export it again"
+        );
+        assert_eq!(
+            message(TEXT.replace("endsolid wrist\n", "").as_bytes()),
+            "the STL file is truncated: it ends within or after face 0 without `endsolid`; copy \
+             or export it again"
+        );
+        assert_eq!(
+            read_bytes(b"solid nothing\nendsolid\n"),
+            Err(ReadError::NoVertices(Format::Stl))
+        );
+        assert_eq!(read_bytes(&binary(b"", &[])), Err(ReadError::NoVertices(Format::Stl)));
+    }
+
+    #[test]
+    fn no_truncation_panics_or_passes_for_whole() {
+        let bytes = binary(b"solid", &TWO);
+        for n in 0..bytes.len() {
+            assert!(read_bytes(&bytes[..n]).is_err(), "{n}");
+        }
+        for n in 0..TEXT.len() - "endsolid wrist\n".len() {
+            assert!(read_bytes(&TEXT.as_bytes()[..n]).is_err(), "{n}");
+        }
+    }
+}
