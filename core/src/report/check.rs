@@ -101,7 +101,9 @@ impl CheckReport {
         if let Some(unit) = self.unit {
             say("unit", unit.to_owned());
         }
-        say("mesh", format!("{} vertices, {} triangles", self.vertices, self.triangles));
+        if self.triangles > 0 {
+            say("mesh", format!("{} vertices, {} triangles", self.vertices, self.triangles));
+        }
         if let Some([x, y, z]) = self.size_mm {
             say("size", format!("{x:.1} × {y:.1} × {z:.1} mm"));
         }
@@ -240,8 +242,16 @@ This surface can be flattened.
 
     #[test]
     fn a_surface_that_could_not_be_read_has_nulls_not_zeros() {
-        let defect = Defect { code: "x".to_owned(), ..Defect::default() };
+        let defect = Defect {
+            code: "unreadable".to_owned(),
+            message: "the file is empty".to_owned(),
+            ..Defect::default()
+        };
         let report = CheckReport { defects: vec![defect], ..CheckReport::default() };
+        assert_eq!(
+            report.to_text(),
+            "defect: the file is empty\nThis surface cannot be flattened: 1 defect.\n"
+        );
         let json: Value = serde_json::from_str(&report.to_json()).unwrap();
         assert_eq!([&json["area_mm2"], &json["size_mm"], &json["shape"]], [&Value::Null; 3]);
         assert!(json["defects"][0].get("at").is_none());
