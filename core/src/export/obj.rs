@@ -131,7 +131,7 @@ mod tests {
         let (disk, coordinates) = disk();
         let mesh = read(&worn_obj(&disk, &coordinates));
         assert_eq!(mesh.positions.len(), 12);
-        assert_eq!(mesh.positions[9..12], [0.0, 1.0_f32 / 3.0, 10.0]);
+        assert_eq!(mesh.positions[9..12], [0.0, 0.333333333, 10.0]);
         assert_eq!(mesh.texcoords, [-8.0, 0.0, 8.5, 0.0, 8.5, 10.0, -8.0, 10.0]);
         assert_eq!(mesh.indices, [0, 1, 2, 0, 2, 3]);
         assert_eq!(mesh.texcoord_indices, mesh.indices);

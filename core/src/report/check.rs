@@ -66,12 +66,18 @@ pub struct CurvatureReport {
 }
 
 /// Something that stops flattening.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Defect {
     /// A frozen short name that programs can test.
-    pub code: &'static str,
+    pub code: String,
     /// What it is, which element, and what to do about it.
     pub message: String,
+    /// The vertices concerned, as the file counts them, from 0.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub vertices: Vec<usize>,
+    /// The faces concerned, as the file counts them, from 0.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub faces: Vec<usize>,
     /// Where it is, in mm, if it is at one place.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<[f64; 3]>,
@@ -95,7 +101,9 @@ impl CheckReport {
         if let Some(unit) = self.unit {
             say("unit", unit.to_owned());
         }
-        say("mesh", format!("{} vertices, {} triangles", self.vertices, self.triangles));
+        if self.triangles > 0 {
+            say("mesh", format!("{} vertices, {} triangles", self.vertices, self.triangles));
+        }
         if let Some([x, y, z]) = self.size_mm {
             say("size", format!("{x:.1} × {y:.1} × {z:.1} mm"));
         }
@@ -204,9 +212,11 @@ This surface can be flattened.
         report.warnings =
             vec![Warning::at("welded", "two points were one", DVec3::new(1.0, 2.0, 3.0))];
         report.defects = vec![Defect {
-            code: "non_manifold_edge",
+            code: "non_manifold_edge".to_owned(),
             message: "three triangles share an edge".to_owned(),
+            faces: vec![7, 8, 9],
             at: Some([4.0, 5.0, 6.5]),
+            ..Defect::default()
         }];
         let text = report.to_text();
         assert!(
@@ -223,7 +233,7 @@ This surface can be flattened.
         let json: Value = serde_json::from_str(&report.to_json()).unwrap();
         assert_eq!(
             json["defects"],
-            json!([{"code": "non_manifold_edge", "message": "three triangles share an edge",
+            json!([{"code": "non_manifold_edge", "message": "three triangles share an edge", "faces": [7, 8, 9],
                     "at": [4.0, 5.0, 6.5]}])
         );
         assert_eq!(json["curvature_per_m"]["percent_95"], json!(25.0));
@@ -232,8 +242,16 @@ This surface can be flattened.
 
     #[test]
     fn a_surface_that_could_not_be_read_has_nulls_not_zeros() {
-        let defect = Defect { code: "x", message: "y".to_owned(), at: None };
+        let defect = Defect {
+            code: "unreadable".to_owned(),
+            message: "the file is empty".to_owned(),
+            ..Defect::default()
+        };
         let report = CheckReport { defects: vec![defect], ..CheckReport::default() };
+        assert_eq!(
+            report.to_text(),
+            "defect: the file is empty\nThis surface cannot be flattened: 1 defect.\n"
+        );
         let json: Value = serde_json::from_str(&report.to_json()).unwrap();
         assert_eq!([&json["area_mm2"], &json["size_mm"], &json["shape"]], [&Value::Null; 3]);
         assert!(json["defects"][0].get("at").is_none());

@@ -1,0 +1,74 @@
+//! `wovenfit demo`: a sample limb, its brace, and where to look at them.
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Arg, ArgMatches, Command, value_parser};
+use wovenfit_core::design;
+use wovenfit_core::parameters::Parameters;
+use wovenfit_core::report::pressure_table;
+use wovenfit_core::surface::{self, Format};
+
+use crate::exit::Failure;
+use crate::{flatten, output, sample};
+
+/// The command's name.
+pub const NAME: &str = "demo";
+
+const LIMB: &str = "elbow";
+
+/// Triangles of 3 to 4 mm: finer than the woven model, and quickly read.
+const TRIANGLES: usize = 10_000;
+
+/// The command's description for the parser.
+pub fn command() -> Command {
+    Command::new(NAME)
+        .about("Make a sample elbow and a brace for it")
+        .after_help(
+            "Example:\n  wovenfit demo --out try\n\n\
+             Writes the elbow, its design and the four results into the folder, and prints the \
+             pressures wanted and computed.",
+        )
+        .arg(
+            Arg::new("out")
+                .long("out")
+                .value_name("DIR")
+                .help("Folder for all files; made if there is none")
+                .default_value("wovenfit-demo")
+                .value_parser(value_parser!(PathBuf)),
+        )
+        .arg(flatten::quiet_flag())
+}
+
+/// Runs the command.
+pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
+    let out = matches
+        .get_one::<PathBuf>("out")
+        .ok_or_else(|| Failure::new("give a folder: see `wovenfit demo --help`"))?;
+    let quiet = matches.get_flag("quiet");
+    output::ready(out)?;
+
+    let [limb, wish] = sample::files(LIMB, TRIANGLES, 0.0, LIMB)?;
+    // From the bytes that are written, so that `flatten` on these files gives the same result.
+    let mesh = surface::read(&limb.1, Format::Obj).map_err(|e| Failure::of(&e))?;
+    let text = String::from_utf8_lossy(&wish.1);
+    let design = design::parse(&text, None).map_err(|e| Failure::of(&e))?;
+    let flattening = flatten::fit(&mesh, &design, &Parameters::default(), quiet)?;
+
+    let command = format!(
+        "\nThe same by hand:\n  wovenfit flatten {} --design {} --out {}\n",
+        out.join(&limb.0).display(),
+        out.join(&wish.0).display(),
+        out.display()
+    );
+    let mut files = vec![limb, wish];
+    files.extend(flatten::files(&flattening));
+    output::write_together(out, &files)?;
+    flatten::warn(&flattening.report);
+    if !quiet {
+        output::say(&pressure_table(&flattening.report));
+        output::say(&flatten::places(out, &files));
+        output::say(&command);
+    }
+    Ok(ExitCode::SUCCESS)
+}

@@ -1,0 +1,197 @@
+//! `wovenfit flatten`: the pattern of a brace from a surface and a design.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use serde::Serialize;
+use wovenfit_core::design::Design;
+use wovenfit_core::export::{flat_obj, json_text, pattern_svg, worn_obj};
+use wovenfit_core::parameters::Parameters;
+use wovenfit_core::report::{PressureReport, Report, pressure_table};
+use wovenfit_core::surface::RawMesh;
+use wovenfit_core::warning::Warning;
+use wovenfit_core::{Flattening, flatten};
+
+use crate::exit::Failure;
+use crate::output::Named;
+use crate::progress::Bar;
+use crate::{flags, input, output};
+
+/// The command's name.
+pub const NAME: &str = "flatten";
+
+/// What is printed for programs.
+#[derive(Debug, Serialize)]
+struct Summary<'a> {
+    out: String,
+    files: Vec<&'a str>,
+    seconds: Seconds,
+    converged: bool,
+    pressures: &'a [PressureReport],
+    warnings: &'a [Warning],
+}
+
+/// How long it took, by the clock on the wall.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Seconds {
+    read: f64,
+    fit: f64,
+    write: f64,
+    total: f64,
+}
+
+/// The command's description for the parser.
+pub fn command() -> Command {
+    let command = Command::new(NAME)
+        .about("Make the flat pattern of a brace")
+        .after_help(
+            "Example:\n  wovenfit flatten scan.obj --design brace.json --out results\n\n\
+             Writes into the folder:\n\
+             \x20 pattern.svg   the pattern at true size: print it at 100 % and cut\n\
+             \x20 report.json   every figure: pressures wanted and computed, girths, warnings\n\
+             \x20 worn.obj      the cut surface, with the pattern as texture coordinates in mm\n\
+             \x20 flat.obj      the flat pattern as a mesh, in mm\n\n\
+             Exit code 0: done. 1: the surface or the design cannot be used; the reason is on \
+             standard error and nothing is written. 2: the command was not understood.",
+        )
+        .arg(
+            Arg::new("surface")
+                .value_name("SURFACE")
+                .help("The scanned limb: .obj, .stl or .ply")
+                .required(true)
+                .value_parser(value_parser!(PathBuf)),
+        )
+        .arg(
+            Arg::new("design")
+                .long("design")
+                .value_name("DESIGN.json")
+                .help("What is wanted: fabric, pressures, seams (see `wovenfit schema`)")
+                .required(true)
+                .value_parser(value_parser!(PathBuf)),
+        )
+        .arg(
+            Arg::new("out")
+                .long("out")
+                .value_name("DIR")
+                .help("Folder for the results; made if there is none")
+                .required(true)
+                .value_parser(value_parser!(PathBuf)),
+        )
+        .arg(
+            Arg::new("json")
+                .long("json")
+                .help("Print a summary as JSON instead of the table, for programs")
+                .action(ArgAction::SetTrue),
+        )
+        .arg(quiet_flag());
+    flags::add(command, |_| true)
+}
+
+/// The flag `--quiet`.
+pub fn quiet_flag() -> Arg {
+    Arg::new("quiet")
+        .long("quiet")
+        .short('q')
+        .help("No progress bar, table and times; warnings and errors remain")
+        .action(ArgAction::SetTrue)
+}
+
+/// Runs the command.
+pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
+    let start = Instant::now();
+    let path = |name: &str| {
+        matches
+            .get_one::<PathBuf>(name)
+            .ok_or_else(|| Failure::new(format!("{name} is missing: see `wovenfit {NAME} --help`")))
+    };
+    let (surface, design, out) = (path("surface")?, path("design")?, path("out")?);
+    let (json, quiet) = (matches.get_flag("json"), matches.get_flag("quiet"));
+    let parameters = flags::parameters(matches)?;
+
+    let mesh = input::surface(surface)?;
+    let design = input::design(design, parameters.units)?;
+    output::ready(out)?;
+    let read = start.elapsed();
+    let flattening = fit(&mesh, &design, &parameters, quiet)?;
+    let fitted = start.elapsed();
+    let files = files(&flattening);
+    output::write_together(out, &files)?;
+    let total = start.elapsed();
+
+    let seconds = Seconds {
+        read: read.as_secs_f64(),
+        fit: (fitted - read).as_secs_f64(),
+        write: (total - fitted).as_secs_f64(),
+        total: total.as_secs_f64(),
+    };
+    let report = &flattening.report;
+    warn(report);
+    if json {
+        let summary = Summary {
+            out: out.display().to_string(),
+            files: files.iter().map(|(name, _)| name.as_str()).collect(),
+            seconds,
+            converged: report.fit.converged,
+            pressures: &report.pressures,
+            warnings: &report.warnings,
+        };
+        output::say(&json_text(&summary));
+    } else if !quiet {
+        output::say(&pressure_table(report));
+        output::say(&places(out, &files));
+        tell_times(seconds);
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Flattens, with a progress bar.
+pub fn fit(
+    mesh: &RawMesh,
+    design: &Design,
+    parameters: &Parameters,
+    quiet: bool,
+) -> Result<Flattening, Failure> {
+    let bar = Bar::new(quiet);
+    let result = flatten(mesh, design, parameters, &bar);
+    // Off the screen before anything else is written there.
+    bar.finish();
+    result.map_err(|error| Failure::of(&error))
+}
+
+/// The four files of a pattern.
+pub fn files(flattening: &Flattening) -> Vec<Named> {
+    let Flattening { disk, coordinates, drawing, report } = flattening;
+    [
+        ("worn.obj", worn_obj(disk, coordinates)),
+        ("flat.obj", flat_obj(disk, coordinates)),
+        ("pattern.svg", pattern_svg(drawing)),
+        ("report.json", report.to_json()),
+    ]
+    .map(|(name, text)| (name.to_owned(), text.into_bytes()))
+    .into()
+}
+
+/// The warnings, on standard error: also for those who asked for quiet.
+pub fn warn(report: &Report) {
+    for warning in &report.warnings {
+        let place = warning
+            .at
+            .map_or_else(String::new, |[x, y, z]| format!(" [at ({x:.2}, {y:.2}, {z:.2}) mm]"));
+        output::tell(&format!("warning: {}{place}\n", warning.message));
+    }
+}
+
+/// Where the files are.
+pub fn places(folder: &Path, files: &[Named]) -> String {
+    let lines = files.iter().map(|(name, _)| format!("  {}\n", folder.join(name).display()));
+    format!("\nFiles:\n{}", lines.collect::<String>())
+}
+
+fn tell_times(seconds: Seconds) {
+    let Seconds { read, fit, write, total } = seconds;
+    output::tell(&format!(
+        "read {read:.2} s, fit {fit:.2} s, write {write:.2} s, total {total:.2} s\n"
+    ));
+}
