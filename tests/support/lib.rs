@@ -7,6 +7,7 @@
 pub mod broken;
 pub mod check;
 pub mod cli;
+pub mod design;
 pub mod fixtures;
 pub mod mesh;
 pub mod motion;
