@@ -6,7 +6,9 @@
 
 #![forbid(unsafe_code)]
 
+mod check;
 pub mod design;
+mod error;
 pub mod export;
 pub mod fit;
 pub mod geometry;
@@ -14,6 +16,7 @@ pub mod mapping;
 pub mod parameterize;
 pub mod parameters;
 pub mod pattern;
+mod pipeline;
 pub mod pressure;
 pub mod progress;
 pub mod report;
@@ -23,3 +26,7 @@ pub mod surface;
 pub mod units;
 pub mod warning;
 pub mod weave;
+
+pub use check::check;
+pub use error::Error;
+pub use pipeline::{Flattening, flatten};

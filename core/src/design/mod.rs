@@ -125,6 +125,12 @@ pub struct Limits {
     pub bony: Vec<DVec3>,
 }
 
+impl Limits {
+    /// Pressure above which the report warns where the design gives no limit, in kPa: the lower end
+    /// of the highest compression class, IV of RAL-GZ 387.
+    pub const WARN_KPA: f64 = 6.5;
+}
+
 /// What is written on the piece.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
 pub struct Piece {

@@ -19,12 +19,12 @@ pub use history::{HistoryEntry, Stopped, at_plateau};
 
 use crate::design::{Fabric, PressureModel};
 use crate::geometry::SurfacePoint;
-use crate::mapping::{MappingError, map_point, map_vertices};
+use crate::mapping::{Mapping, MappingError};
 use crate::parameters::Parameters;
 use crate::pressure::{Annotation, TargetError, Targets, target_strains};
 use crate::progress::{Progress, Stage};
 use crate::surface::Surface;
-use crate::weave::{NodeSearch, WovenModel, lay};
+use crate::weave::{WovenModel, lay};
 
 /// What a fit starts from.
 #[derive(Clone, Copy)]
@@ -108,7 +108,7 @@ pub fn diffuse(input: &FitInput<'_>, progress: &dyn Progress) -> Result<Fit, Fit
         if level == 0 {
             return Ok(fit);
         }
-        plane = map_vertices(input.disk, &fit.model)?;
+        plane = Mapping::new(input.disk, &fit.model).vertices()?;
         level -= 1;
     }
 }
@@ -204,17 +204,15 @@ impl Run<'_> {
     /// lean.
     fn upright(&self, model: WovenModel) -> Result<WovenModel, MappingError> {
         let disk = self.input.disk;
-        let search = NodeSearch::new(disk, &model);
+        let mapping = Mapping::new(disk, &model);
         let [upper, lower] = self.input.markers;
-        let up =
-            map_point(disk, &model, &search, upper)? - map_point(disk, &model, &search, lower)?;
+        let up = mapping.point(upper)? - mapping.point(lower)?;
         let lean = up.x.atan2(up.y);
         if lean.abs() <= MOST_LEAN {
             return Ok(model);
         }
         let turn = DVec2::from_angle(lean);
-        let plane: Vec<DVec2> =
-            map_vertices(disk, &model)?.into_iter().map(|p| turn.rotate(p)).collect();
+        let plane: Vec<DVec2> = mapping.vertices()?.into_iter().map(|p| turn.rotate(p)).collect();
         Ok(lay(disk, &centred(&plane, model.spacing()), model.spacing()))
     }
 }
@@ -282,7 +280,7 @@ mod tests {
         };
         let fit = diffuse(&input, &Silent).unwrap();
         assert!(fit.stopped.converged());
-        let plane = map_vertices(&disk, &fit.model).unwrap();
+        let plane = Mapping::new(&disk, &fit.model).vertices().unwrap();
         let strain = 0.002 * radius / 0.5;
         let girth = 2.0 * 96.0 * radius * (std::f64::consts::PI / 96.0).sin();
         let row = |i: usize| plane[i * 97 + 96].x - plane[i * 97].x;

@@ -11,6 +11,7 @@
 //!   beyond its last cells alike.
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use crate::geometry::SurfacePoint;
 use crate::surface::Surface;
@@ -33,79 +34,120 @@ pub enum MappingError {
     },
 }
 
-/// Nodes up to this many cells away have a say in a vertex's place. Three cells reach an internal
-/// node from every place within a cell and a half outside the fabric; farther nodes would see the
-/// surface bend away from their threads.
-const BLEND_RADIUS: f64 = 3.0;
+/// Nodes up to this many cells away have a say in a vertex's place.
+const BLEND_RADIUS: f64 = 4.0;
 
-/// What a boundary node (valence below eight) says counts this much. The fabric ends in steps of
-/// whole cells, and the short rows of a step follow their own wanted strain; the rows behind them
-/// tell better where the pattern goes on. Not zero, for narrow places without internal nodes.
+/// What a node says counts by how deep it lies in the fabric: 1 from this depth on (in cells), and
+/// `EDGE_WEIGHT` times less for each cell nearer to the edge. The fabric ends in steps of whole
+/// cells, and the short rows of a step follow their own wanted strain, up to a millimetre off the
+/// rows behind them; a pattern that followed them would have a wavy outline. Never zero, for narrow
+/// places without deep nodes.
+const FULL_DEPTH: usize = 2;
+
+/// See [`FULL_DEPTH`].
 const EDGE_WEIGHT: f64 = 0.01;
 
-/// Planar coordinates (mm, x along warp, y along weft) of every vertex of the surface.
-///
-/// # Errors
-/// If some vertex is far from every node.
-pub fn map_vertices(surface: &Surface, model: &WovenModel) -> Result<Vec<DVec2>, MappingError> {
-    let search = NodeSearch::new(surface, model);
-    let mut points: Vec<Option<SurfacePoint>> = vec![None; surface.vertex_count()];
-    for t in surface.triangle_ids() {
-        for (k, v) in surface.triangle(t).into_iter().enumerate() {
-            points[v.index()].get_or_insert_with(|| {
-                let mut barycentric = DVec3::ZERO;
-                barycentric[k] = 1.0;
-                SurfacePoint { triangle: t, barycentric }
-            });
-        }
-    }
-    points.into_iter().flatten().map(|point| map_point(surface, model, &search, &point)).collect()
+/// The surface-plane mapping of a woven model.
+pub struct Mapping<'a> {
+    surface: &'a Surface,
+    model: &'a WovenModel,
+    search: NodeSearch<'a>,
+    /// What each slot's node counts.
+    weights: Vec<f64>,
 }
 
-/// Planar coordinates (mm) of one point of the surface.
-///
-/// # Errors
-/// If it is far from every node.
-pub fn map_point(
-    surface: &Surface,
-    model: &WovenModel,
-    search: &NodeSearch<'_>,
-    point: &SurfacePoint,
-) -> Result<DVec2, MappingError> {
-    // Corners of the surface can be a few cells from the last whole cell of the fabric.
-    let limit = 8.0 * model.spacing();
-    let place = point.position(surface);
-    let (slot, _) = search.closest(point, limit).ok_or(MappingError::Uncovered { place, limit })?;
-    let closest = model.index(slot);
-    let first = predict(model, closest, place).ok_or(MappingError::Uncovered { place, limit })?;
-    // Again round the first mean: the closest node alone may be one at the edge.
-    let mean = blend(model, place, first);
-    Ok(blend(model, place, mean) * model.spacing())
+impl<'a> Mapping<'a> {
+    /// Prepares the mapping.
+    #[must_use]
+    pub fn new(surface: &'a Surface, model: &'a WovenModel) -> Self {
+        Self { surface, model, search: NodeSearch::new(surface, model), weights: weights(model) }
+    }
+
+    /// Planar coordinates (mm, x along warp, y along weft) of every vertex of the surface.
+    ///
+    /// # Errors
+    /// If some vertex is far from every node.
+    pub fn vertices(&self) -> Result<Vec<DVec2>, MappingError> {
+        let mut points: Vec<Option<SurfacePoint>> = vec![None; self.surface.vertex_count()];
+        for t in self.surface.triangle_ids() {
+            for (k, v) in self.surface.triangle(t).into_iter().enumerate() {
+                points[v.index()].get_or_insert_with(|| {
+                    let mut barycentric = DVec3::ZERO;
+                    barycentric[k] = 1.0;
+                    SurfacePoint { triangle: t, barycentric }
+                });
+            }
+        }
+        points.par_iter().flatten().map(|point| self.point(point)).collect()
+    }
+
+    /// Planar coordinates (mm) of one point of the surface.
+    ///
+    /// # Errors
+    /// If it is far from every node.
+    pub fn point(&self, point: &SurfacePoint) -> Result<DVec2, MappingError> {
+        // Corners of the surface can be a few cells from the last whole cell of the fabric.
+        let limit = 8.0 * self.model.spacing();
+        let place = point.position(self.surface);
+        let uncovered = || MappingError::Uncovered { place, limit };
+        let (slot, _) = self.search.closest(point, limit).ok_or_else(uncovered)?;
+        let first = predict(self.model, self.model.index(slot), place).ok_or_else(uncovered)?;
+        // Again round the first mean: the closest node alone may be one at the edge.
+        let mean = self.blend(place, first);
+        Ok(self.blend(place, mean) * self.model.spacing())
+    }
+
+    /// The mean of what the nodes round the index coordinates `about` say of a place.
+    fn blend(&self, place: DVec3, about: DVec2) -> DVec2 {
+        let reach = BLEND_RADIUS.ceil() as i32;
+        let middle = NodeIndex { i: about.y.round() as i32, j: about.x.round() as i32 };
+        let mut sum = DVec2::ZERO;
+        let mut total = 0.0;
+        for di in -reach..=reach {
+            for dj in -reach..=reach {
+                let node = middle.offset(di, dj);
+                let off = DVec2::new(f64::from(node.j), f64::from(node.i)) - about;
+                let near = 1.0 - off.length_squared() / (BLEND_RADIUS * BLEND_RADIUS);
+                if near <= 0.0 {
+                    continue;
+                }
+                let Some(slot) = self.model.slot(node) else { continue };
+                if let Some(says) = predict(self.model, node, place) {
+                    // The sixth power: inside the fabric the nearest nodes decide.
+                    let weight = self.weights[slot] * near.powi(6);
+                    sum += weight * says;
+                    total += weight;
+                }
+            }
+        }
+        if total > 0.0 { sum / total } else { about }
+    }
 }
 
-/// The mean of what the nodes round the index coordinates `about` say of a place.
-fn blend(model: &WovenModel, place: DVec3, about: DVec2) -> DVec2 {
-    let reach = BLEND_RADIUS.ceil() as i32;
-    let middle = NodeIndex { i: about.y.round() as i32, j: about.x.round() as i32 };
-    let mut sum = DVec2::ZERO;
-    let mut total = 0.0;
-    for di in -reach..=reach {
-        for dj in -reach..=reach {
-            let node = middle.offset(di, dj);
-            let off = DVec2::new(f64::from(node.j), f64::from(node.i)) - about;
-            let near = 1.0 - off.length_squared() / (BLEND_RADIUS * BLEND_RADIUS);
-            if near <= 0.0 {
-                continue;
-            }
-            if let Some(says) = predict(model, node, place) {
-                let part = if is_internal(model, node) { 1.0 } else { EDGE_WEIGHT };
-                let weight = part * near.powi(3);
-                sum += weight * says;
-                total += weight;
+/// What each slot's node counts, by its depth in the fabric.
+fn weights(model: &WovenModel) -> Vec<f64> {
+    let filled: Vec<bool> =
+        (0..model.slot_count()).map(|slot| model.point_in(slot).is_some()).collect();
+    let mut weights = vec![EDGE_WEIGHT.powi(FULL_DEPTH as i32); filled.len()];
+    let mut inside = filled;
+    let up = model.stride();
+    for _ in 0..FULL_DEPTH {
+        // The model keeps a ring of empty slots, so a node's neighbours all have slots.
+        inside = (0..inside.len())
+            .map(|slot| {
+                inside[slot]
+                    && [slot - up, slot, slot + up]
+                        .into_iter()
+                        .all(|s| inside[s - 1] && inside[s] && inside[s + 1])
+            })
+            .collect();
+        for (weight, inside) in weights.iter_mut().zip(&inside) {
+            if *inside {
+                *weight /= EDGE_WEIGHT;
             }
         }
     }
-    if total > 0.0 { sum / total } else { about }
+    weights
 }
 
 /// Index coordinates (j, i) of a place as seen from one node: Eqs. (8), (9) over the spacing.
@@ -126,11 +168,6 @@ fn predict(model: &WovenModel, node: NodeIndex, place: DVec3) -> Option<DVec2> {
     let u = (dw * ff - df * wf) / determinant;
     let v = (df * ww - dw * wf) / determinant;
     Some(DVec2::new(f64::from(node.j) + u, f64::from(node.i) + v))
-}
-
-/// Whether a node has all eight neighbours.
-fn is_internal(model: &WovenModel, node: NodeIndex) -> bool {
-    (-1..=1).all(|di| (-1..=1).all(|dj| model.point(node.offset(di, dj)).is_some()))
 }
 
 /// The thread on the side of the offset, pointing to growing index; the existing one at the edge.
@@ -174,7 +211,7 @@ mod tests {
     fn an_affine_map_with_shear_is_recovered_exactly() {
         let (surface, plane) = grid(30, 20, |x, y| DVec3::new(1.2 * x + 0.3 * y, 0.9 * y, 4.0));
         let model = lay(&surface, &plane, 5.0);
-        let mapped = map_vertices(&surface, &model).unwrap();
+        let mapped = Mapping::new(&surface, &model).vertices().unwrap();
         for (got, want) in mapped.iter().zip(&plane) {
             assert!(got.distance(*want) < 1e-9, "{got} {want}");
         }
@@ -186,7 +223,7 @@ mod tests {
         let (surface, plane) =
             grid(60, 20, |x, y| DVec3::new(r * (x / r).sin(), y, r * (x / r).cos()));
         let model = lay(&surface, &plane, 5.0);
-        let mapped = map_vertices(&surface, &model).unwrap();
+        let mapped = Mapping::new(&surface, &model).vertices().unwrap();
         let worst = mapped.iter().zip(&plane).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         assert!(worst < 0.05, "{worst}");
     }
@@ -195,7 +232,7 @@ mod tests {
     fn a_surface_without_fabric_is_refused_by_place() {
         let (surface, _) = grid(2, 2, |x, y| DVec3::new(x, y, 0.0));
         let empty = WovenModel::empty(1.0, NodeIndex { i: 0, j: 0 }, NodeIndex { i: 1, j: 1 });
-        let message = map_vertices(&surface, &empty).unwrap_err().to_string();
+        let message = Mapping::new(&surface, &empty).vertices().unwrap_err().to_string();
         assert!(message.contains("(0.3, 0.7, 0.0) mm"), "{message}");
     }
 }

@@ -144,6 +144,8 @@ pub struct HistoryEntry {
     pub spacing_mm: f64,
     /// Number of woven nodes.
     pub nodes: usize,
+    /// Number of warp and weft springs: what `e_ssd` is a sum over.
+    pub springs: usize,
     /// Energy of all springs in N·mm.
     pub energy: f64,
     /// Sum of squared strain differences, Eq. (14).
@@ -153,6 +155,9 @@ pub struct HistoryEntry {
 /// The strain function ε(t), Eqs. (10) and (11).
 #[derive(Debug, Clone, PartialEq, Default, serde::Serialize)]
 pub struct StrainFunctionReport {
+    /// How the data were met: `zero` (none), `constant` (one), `squared` (Eq. 11), `floored`
+    /// (Eq. 10, floored at zero) or `smoothed` (too close to be met).
+    pub form: &'static str,
     /// The wanted warp strain of each thread.
     pub rows: Vec<StrainRow>,
     /// What the function goes through or was smoothed from.

@@ -1,12 +1,14 @@
 //! The report: every figure of a run as data, and the few of them that a terminal shows.
 
 mod check;
+mod compose;
 #[cfg(test)]
 mod example;
 mod json;
 mod table;
 
 pub use check::{CheckReport, CurvatureReport, Defect, LoopReport};
+pub(crate) use compose::compose;
 pub use json::{
     ENERGY_UNIT, FitReport, GirthReport, HistoryEntry, ParameterValues, PatternReport,
     PressureReport, Reason, Report, SeamReport, StrainDatum, StrainFunctionReport, StrainRow,

@@ -63,8 +63,7 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         _ => Facing::Outward,
     });
     let mut report = match input::surface(path) {
-        Ok(mesh) => wovenfit_core::check(&mesh, parameters.units, facing, &parameters)
-            .unwrap_or_else(|error| refused("surface", Failure::of(&error).to_string())),
+        Ok(mesh) => wovenfit_core::check(&mesh, facing, &parameters),
         // There is no file to say anything about.
         Err(SurfaceFailure::File(failure)) => return Err(failure),
         Err(SurfaceFailure::Contents(failure)) => refused("unreadable", failure.to_string()),
