@@ -118,7 +118,7 @@ fn the_designers_word_wins_against_the_shape_and_is_doubted() {
 #[test]
 fn a_quarter_of_a_tube_tells_its_side_and_a_slight_bend_does_not() {
     let patch = |columns: usize| {
-        let whole = grid(20, 6, true);
+        let whole = grid(20, 12, true);
         let kept = (0..whole.polygons.len()).filter(|t| (t / 2) % 20 < columns);
         let polygons = kept.map(|t| whole.polygons[t].clone()).collect();
         RawMesh { points: whole.points, polygons }
@@ -126,7 +126,9 @@ fn a_quarter_of_a_tube_tells_its_side_and_a_slight_bend_does_not() {
     let valid = validate(&reversed(patch(5)), &OPTIONS).unwrap();
     assert!(is_outward(&valid.surface));
     assert!(codes(&valid).contains(&"reversed"));
+    // Flat, and bent by 18° along its middle.
     assert_eq!(only(&patch(1)).0, DefectKind::AmbiguousFacing);
+    assert_eq!(only(&patch(2)).0, DefectKind::AmbiguousFacing);
 }
 
 #[test]
@@ -223,6 +225,18 @@ fn patches_whose_borders_lie_on_each_other_are_joined() {
         "20 points on the borders between pieces of the surface were welded: borders lay exactly \
          on each other"
     );
+    // One that faces the other way is joined and turned.
+    let other = reversed(moved(tube(2), DVec3::new(0.0, 0.0, 30.0)));
+    let valid = validate(&together(&tube(3), &other), &OPTIONS).unwrap();
+    assert_eq!(shape_of(&valid.surface), Shape::Tube);
+    assert_eq!(codes(&valid), ["welded", "orientation_repaired"]);
+    assert!(is_outward(&valid.surface));
+    // A cut through both stays.
+    let above = moved(grid(20, 2, false), DVec3::new(0.0, 0.0, 30.0));
+    let valid = validate(&together(&grid(20, 3, false), &above), &OPTIONS).unwrap();
+    assert_eq!(shape_of(&valid.surface), Shape::Disk);
+    assert_eq!(codes(&valid), ["welded", "cut_kept"]);
+    assert!(valid.warnings[1].message.contains("along 50.0 mm"));
     // A copy on the same place is no patch, whichever way it faces.
     for copy in [tube(3), reversed(tube(3))] {
         let (kind, _, _) = only(&together(&tube(3), &copy));
@@ -309,6 +323,15 @@ fn the_ends_of_a_tube_and_an_outline_are_never_closed() {
     let valid = validate(&with_holes(8, &[(3, 2)]), &all).unwrap();
     assert_eq!(shape_of(&valid.surface), Shape::Tube);
     assert_eq!(codes(&valid), ["opening_kept", "hole_closed", "opening_kept"]);
+    // From thigh to ankle, the lower end four tenths of the upper.
+    let mut leg = tube(8);
+    for p in &mut leg.points {
+        let scale = 1.0 - 0.6 * p.z / 80.0;
+        *p = DVec3::new(scale * p.x, scale * p.y, p.z);
+    }
+    let valid = validate(&leg, &all).unwrap();
+    assert_eq!(shape_of(&valid.surface), Shape::Tube);
+    assert_eq!(codes(&valid), ["opening_kept", "opening_kept"]);
     // On a disk the second loop is a hole.
     let square = SurfaceOptions { facing: Some(Facing::Outward), ..all };
     let mut raw = grid(20, 20, false);
@@ -316,4 +339,14 @@ fn the_ends_of_a_tube_and_an_outline_are_never_closed() {
     let valid = validate(&raw, &square).unwrap();
     assert_eq!(shape_of(&valid.surface), Shape::Disk);
     assert_eq!(codes(&valid), ["cut_kept", "hole_closed"]);
+}
+
+#[test]
+fn thin_triangles_of_a_scan_pass() {
+    // A ring a thousandth of a millimetre above the end: slivers of 0.01°.
+    let mut raw = tube(3);
+    raw.points[20..40].iter_mut().for_each(|p| p.z = 1e-3);
+    let valid = validate(&raw, &OPTIONS).unwrap();
+    assert_eq!(valid.surface.triangle_count(), 120);
+    assert!(valid.warnings.is_empty());
 }
