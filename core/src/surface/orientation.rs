@@ -113,6 +113,10 @@ mod tests {
         let triangles = [[0, 2, 1], [0, 2, 3], [0, 3, 4], [0, 4, 5]];
         let agreement = agree(&triangles, &Edges::of(&triangles));
         assert_eq!(agreement.turned, [true, false, false, false]);
+        // Two of five, the first among them.
+        let triangles = [[0, 2, 1], [0, 2, 3], [0, 4, 3], [0, 4, 5], [0, 5, 6]];
+        let agreement = agree(&triangles, &Edges::of(&triangles));
+        assert_eq!(agreement.turned, [true, false, true, false, false]);
     }
 
     #[test]

@@ -4,8 +4,8 @@
 //!   places are all the connectivity there is, and all points are welded.
 //! - Where points are shared by index, two vertices at one place are two on purpose: the sides of
 //!   a cut. They are left alone, unless they lie on the borders of two *different* components,
-//!   edge on edge and running opposite ways, with the surface going on: exporters part a surface
-//!   so at the borders of texture patches. A second layer on the first is not joined to it.
+//!   edge on edge, with the surface going on: exporters part a surface so at the borders of
+//!   texture patches. A second layer, its triangles on those of the first, is not joined to it.
 //!
 //! Limit: the cut of a surface that is stored as a soup cannot be told from the rest and closes.
 
@@ -91,8 +91,7 @@ pub(super) fn join_components(
     for group in borders.groups() {
         for (i, a) in group.iter().enumerate() {
             for b in &group[i + 1..] {
-                let goes_on = a.upward != b.upward
-                    && points[a.apex].distance(points[b.apex]) > tolerance
+                let goes_on = points[a.apex].distance(points[b.apex]) > tolerance
                     && component[a.triangle] != component[b.triangle];
                 if goes_on {
                     joined = true;
@@ -119,8 +118,6 @@ struct Border {
     places: [usize; 2],
     /// The vertices at these places.
     vertices: [usize; 2],
-    /// Whether its triangle runs along it from the first to the second.
-    upward: bool,
     triangle: usize,
     /// The triangle's third vertex.
     apex: usize,
@@ -148,12 +145,10 @@ impl Borders {
             .into_iter()
             .filter_map(|h| {
                 let (a, b) = (start(triangles, h), end(triangles, h));
-                let upward = place[a] <= place[b];
-                let (a, b) = if upward { (a, b) } else { (b, a) };
+                let (a, b) = if place[a] <= place[b] { (a, b) } else { (b, a) };
                 (place[a] != place[b]).then(|| Border {
                     places: [place[a], place[b]],
                     vertices: [a, b],
-                    upward,
                     triangle: h / 3,
                     apex: triangles[h / 3][(h % 3 + 2) % 3],
                 })

@@ -1,7 +1,7 @@
 //! STL by `stl_io`, as a soup: every triangle has three points of its own.
 //!
 //! `stl_io` takes every file that begins with `solid ` for text, and many binary files do; here
-//! the length decides, which in binary STL follows from the number of triangles. Its own merging
+//! the number of triangles after the header, which is no text, decides. Its own merging
 //! of points (equal bits, so that 0 and −0 differ) is not used: see
 //! [`validate`](crate::surface::validate()).
 
@@ -20,8 +20,7 @@ const TRIANGLE: usize = 50;
 pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, ReadError> {
     let declared = declared_triangles(bytes);
     let complete = declared.map(|n| PREAMBLE as u64 + n * TRIANGLE as u64);
-    let is_binary = complete == Some(bytes.len() as u64) || !looks_like_text(bytes);
-    if !is_binary {
+    if looks_like_text(bytes) {
         return read_text(bytes);
     }
     let (Some(declared), Some(complete)) = (declared, complete) else {
@@ -67,10 +66,12 @@ fn is_text_byte(byte: u8) -> bool {
     byte.is_ascii_graphic() || byte.is_ascii_whitespace()
 }
 
-/// Whether the bytes are a text STL, broken or whole: `solid` and no byte that no text has.
+/// Whether the bytes are a text STL, broken or whole: `solid`, and no zero byte where a binary
+/// file has the number of its triangles, which has one unless it exceeds 16 million.
 fn looks_like_text(bytes: &[u8]) -> bool {
     let start = bytes.trim_ascii_start();
-    start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid")) && !bytes.contains(&0)
+    start.get(..5).is_some_and(|word| word.eq_ignore_ascii_case(b"solid"))
+        && !bytes[..bytes.len().min(PREAMBLE)].contains(&0)
 }
 
 fn collect(source: &mut Cursor<Vec<u8>>) -> std::io::Result<RawMesh> {
