@@ -413,7 +413,7 @@ mod tests {
         assert!(inside.contains("begins (40.0, 0.0, 50.0) and ends"), "{inside}");
         let short = text(&s, &[vec![round(40.0, 0.0, 200.0), round(40.0, 0.0, 50.0)]]);
         assert!(
-            short.contains("no seam reaches the 251 mm long end near (0.0, 0.0, 0.0)"),
+            short.contains("no seam reaches the 251 mm long end near (0.0, 0.0, 0.0) within 10 mm"),
             "{short}"
         );
         let darts = |z: f64, w: f64| vec![round(40.0, 0.0, z), round(40.0, 0.0, w)];
