@@ -17,6 +17,10 @@ use super::slivers::{SNAP, TOUCH, YIELD, improve_round};
 use super::triangulation::Triangulation;
 use crate::surface::{HalfEdgeId, TriangleId, VertexId};
 
+/// A designer's point whose weight of a corner is below this moves onto the opposite edge: by a
+/// tenth of the triangle's height, less than a point is placed by hand.
+const BESIDE: f64 = 0.1;
+
 /// One crossing: the half-edge by its ends, and the place.
 struct Crossing {
     from: VertexId,
@@ -220,7 +224,7 @@ pub(super) fn insert(
     }
     let least = (0..3).fold(0, |best, k| if w[k] < w[best] { k } else { best });
     let h = HalfEdgeId::of(triangle, (least + 1) % 3);
-    if w[least] < SNAP {
+    if w[least] < BESIDE {
         let (a, b) = ((least + 1) % 3, (least + 2) % 3);
         let part = (w[b] / (w[a] + w[b])).clamp(0.0, 1.0);
         // A place on the very corner of an edge that cannot be moved there is that corner.

@@ -188,10 +188,12 @@ mod tests {
     use glam::{DMat3, DQuat};
 
     use super::super::fixtures::{
-        Mesh, annulus, cylinder, cylinder_with_hole, frustum, round, slit_cylinder,
+        Mesh, Noise, annulus, cylinder, cylinder_with_hole, frustum, round, slit_cylinder,
         smallest_corner, sphere, strip, torus, tube,
     };
+    use super::super::region::clip;
     use super::*;
+    use crate::design::RegionPlane;
 
     fn length(s: &Surface, chain: &[VertexId]) -> f64 {
         chain.windows(2).map(|w| s.point(w[0]).distance(s.point(w[1]))).sum()
@@ -413,7 +415,7 @@ mod tests {
         assert!(inside.contains("begins (40.0, 0.0, 50.0) and ends"), "{inside}");
         let short = text(&s, &[vec![round(40.0, 0.0, 200.0), round(40.0, 0.0, 50.0)]]);
         assert!(
-            short.contains("no seam reaches the 251 mm long end near (0.0, 0.0, 0.0)"),
+            short.contains("no seam reaches the 251 mm long end near (0.0, 0.0, 0.0) within 10 mm"),
             "{short}"
         );
         let darts = |z: f64, w: f64| vec![round(40.0, 0.0, z), round(40.0, 0.0, w)];
@@ -447,6 +449,44 @@ mod tests {
             for (p, q) in cut.disk.points().iter().zip(other.disk.points()) {
                 assert!(moved(p).distance(*q) < 1e-5, "{mesh:?} {}", moved(p).distance(*q));
             }
+        }
+    }
+
+    #[test]
+    fn random_bent_limbs_are_clipped_and_cut_whole() {
+        for seed in 0..40 {
+            let mut noise = Noise(seed);
+            let [bend, swell, oval] = [0.6, 8.0, 5.0].map(|most| most * noise.next());
+            let place = |u: f64, v: f64| {
+                let radius = 40.0 + swell * (6.0 * v).sin() + oval * v * (2.0 * TAU * u).cos();
+                let (p, along) = (round(radius, u, 0.0), 200.0 * (v - 0.5));
+                let (sin, cos) = (2.0 * bend * (v - 0.5)).sin_cos();
+                DVec3::new(p.x * cos + along * sin, p.y, along * cos - p.x * sin)
+            };
+            let limb = tube(48, 40, Mesh::Random(seed), place, |_, _| false);
+            let mut plane = |z: f64| RegionPlane {
+                point: DVec3::new(0.0, 0.0, z + 10.0 * noise.next()),
+                normal: DVec3::new(0.3 * noise.next(), 0.3 * noise.next(), -z.signum()),
+            };
+            let planes = [plane(-60.0), plane(60.0)];
+            let s = clip(&limb, &planes).unwrap().surface;
+            let cut = open_to_disk(&s, &[]).unwrap();
+            check(&s, &cut, 1);
+            let automatic = length(&cut.disk, &cut.seams[0].left);
+            // A zigzag through vertices, 3 mm off the limb, is longer than the shortest way.
+            let ends = cut.ends.as_ref().unwrap();
+            let [top, bottom] = [&ends.proximal, &ends.distal].map(|end| cut.disk.point(end[9]));
+            let between = |part: f64| {
+                let p = top.lerp(bottom, part) + 20.0 * noise.next() * DVec3::Y;
+                let near = |q: &&DVec3| q.distance(p);
+                let all = s.points().iter();
+                *all.min_by(|a, b| near(a).total_cmp(&near(b))).unwrap() + DVec3::X * 3.0
+            };
+            let [a, b] = [0.35, 0.7].map(between);
+            let drawn = open_to_disk(&s, &[vec![top, a, b, bottom]]).unwrap();
+            check(&s, &drawn, 1);
+            assert_eq!(drawn.seams.len(), 1, "{seed}");
+            assert!(length(&drawn.disk, &drawn.seams[0].left) > automatic - 0.5, "{seed}");
         }
     }
 }

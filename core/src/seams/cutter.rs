@@ -24,12 +24,14 @@ pub(super) struct Cutter {
     pinned: BTreeSet<VertexId>,
     /// Chains of vertices along which the surface is cut.
     chains: Vec<Vec<VertexId>>,
+    /// Mean length of the edges before the first cut, in mm.
+    edge: f64,
 }
 
 impl Cutter {
     pub(super) fn new(surface: &Surface, shape: &Shape) -> Self {
         let mesh = Triangulation::new(surface);
-        Self { mesh, pinned: shape.sewn.clone(), chains: Vec::new() }
+        Self { edge: mesh.mean_edge(), mesh, pinned: shape.sewn.clone(), chains: Vec::new() }
     }
 
     pub(super) fn automatic(
@@ -43,7 +45,7 @@ impl Cutter {
             .collect();
         let [proximal, distal] = ends.map(|i| &shape.loops[i][..]);
         for margin in MARGINS_MM {
-            let space = Space::new(&self.mesh, self.within(&cut_outs, margin));
+            let space = Space::new(&self.mesh, self.within(&cut_outs, margin), self.edge);
             let Some((path, taut)) = space.across(proximal, distal)? else { continue };
             self.carve(&path, &taut)?;
             let chain = &self.chains[self.chains.len() - 1];
@@ -139,7 +141,6 @@ impl Cutter {
             return Err(SeamError::SeamInside { seam, start: points[0], end: points[last] });
         }
         // The vertices that the seam passes, each with the number of its point.
-        let edge = Space::new(&self.mesh, Vec::new()).edge;
         let mut stops: Vec<(VertexId, usize)> = Vec::new();
         stops.extend(first_end.map(|v| (v, 1)));
         for (i, &p) in places.iter().enumerate() {
@@ -149,7 +150,7 @@ impl Cutter {
                 _ => None,
             };
             // A last point beside the edge to which the seam is extended would only kink it.
-            if end.is_some_and(|v| self.mesh.point(v).distance(p) < 2.0 * edge) {
+            if end.is_some_and(|v| self.mesh.point(v).distance(p) < 2.0 * self.edge) {
                 continue;
             }
             let (triangle, weights, _) = self.nearest(p);
@@ -175,7 +176,7 @@ impl Cutter {
             for v in shores.iter().flatten() {
                 forbidden[v.index()] = false;
             }
-            let space = Space::new(&self.mesh, forbidden);
+            let space = Space::new(&self.mesh, forbidden, self.edge);
             let Some((path, taut)) = space.between(from, to, [&shores[0], &shores[1]])? else {
                 let [from, to] = [from, to].map(|v| self.mesh.point(v));
                 return Err(SeamError::NoWay { seam, point, from, to });

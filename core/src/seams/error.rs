@@ -119,7 +119,7 @@ pub enum SeamError {
     },
     /// The seams leave the tube uncut.
     #[error(
-        "the seams do not open the tube: no seam reaches the {girth:.0} mm long end near ({}): draw a seam from one end of the tube to the other, or give no seams to have it placed automatically",
+        "the seams do not open the tube: no seam reaches the {girth:.0} mm long end near ({}) within {REACH_MM} mm: draw a seam from one end of the tube to the other, or give no seams to have it placed automatically",
         place(*.near)
     )]
     EndNotReached {

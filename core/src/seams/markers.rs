@@ -6,7 +6,7 @@
 
 use glam::{DMat3, DVec3};
 
-use super::cut::{CutSurface, Ends};
+use super::cut::CutSurface;
 use super::error::{REACH_MM, SeamError, place as show};
 use crate::geometry::{Locator, SurfacePoint};
 use crate::surface::{HalfEdgeId, Surface, VertexId};
@@ -215,16 +215,6 @@ fn principal(matrix: DMat3) -> DVec3 {
         if c.length() > best.length() * (1.0 + 1e-9) { c } else { best }
     });
     largest.normalize_or(DVec3::X)
-}
-
-/// The two ends of a cut tube, if it is one, as places: for callers that show them.
-impl Ends {
-    /// The middles of the proximal and the distal end, in mm.
-    #[must_use]
-    pub fn middles(&self, disk: &Surface) -> [DVec3; 2] {
-        [&self.proximal, &self.distal]
-            .map(|end| end.iter().map(|&v| disk.point(v)).sum::<DVec3>() / end.len() as f64)
-    }
 }
 
 #[cfg(test)]

@@ -77,10 +77,8 @@ pub(super) struct Space<'a> {
 }
 
 impl<'a> Space<'a> {
-    pub(super) fn new(mesh: &'a Triangulation, forbidden: Vec<bool>) -> Self {
-        let count = mesh.half_edge_count();
-        let sum: f64 = (0..count).map(|h| mesh.length(HalfEdgeId::new(h))).sum();
-        Self { mesh, forbidden, edge: sum / count as f64 }
+    pub(super) fn new(mesh: &'a Triangulation, forbidden: Vec<bool>, edge: f64) -> Self {
+        Self { mesh, forbidden, edge }
     }
 
     fn allowed(&self, t: TriangleId) -> bool {
@@ -444,7 +442,7 @@ mod tests {
     }
 
     fn length(mesh: &Triangulation, from: VertexId, to: VertexId) -> f64 {
-        let space = Space::new(mesh, vec![false; mesh.vertex_count()]);
+        let space = Space::new(mesh, vec![false; mesh.vertex_count()], mesh.mean_edge());
         let (path, taut) = space.between(from, to, [&[], &[]]).unwrap().unwrap();
         assert_eq!(path.crossings.len(), taut.parts.len());
         taut.length
@@ -522,10 +520,11 @@ mod tests {
         let wall = |reach: f64| -> Vec<bool> {
             mesh.points().iter().map(|p| (p.y - 150.0).abs() < 1.0 && p.x < reach).collect()
         };
-        let found = Space::new(&mesh, wall(50.0)).between(a, b, [&[], &[]]).unwrap().unwrap().1;
+        let found =
+            Space::new(&mesh, wall(50.0), 6.0).between(a, b, [&[], &[]]).unwrap().unwrap().1;
         // The triangles at the wall's last vertex (48, 150) reach to (52, 150) and (52, 156).
         let exact = f64::hypot(12.0, 90.0) + 6.0 + f64::hypot(12.0, 84.0);
         assert!((found.length - exact).abs() < 1e-9, "{} {exact}", found.length);
-        assert!(Space::new(&mesh, wall(90.0)).between(a, b, [&[], &[]]).unwrap().is_none());
+        assert!(Space::new(&mesh, wall(90.0), 6.0).between(a, b, [&[], &[]]).unwrap().is_none());
     }
 }

@@ -11,11 +11,12 @@ use crate::surface::{HalfEdgeId, VertexId};
 /// A vertex nearer to a cutting curve than this part of the edge that the curve crosses moves
 /// along that edge onto the curve, instead of the edge being split there.
 ///
-/// Splitting at the part `f` makes a corner of about `60° · f` in a regular triangle, so that 0.15
-/// keeps corners above some 9°. The surface changes by less than `f · ℓ · sin(bend)`: with 2 mm
-/// edges bending by 3° 0.016 mm, far below a scan's noise. A larger part would squeeze the
-/// triangles behind the moved vertex as much as it spares those in front.
-pub(super) const SNAP: f64 = 0.15;
+/// The curve stays where it is; the surface gives way by less than `SNAP · ℓ · sin(bend)`: with
+/// 2 mm edges that bend by 3° 0.03 mm, a tenth of a scan's noise. On two real limbs of 20,000 and
+/// 300,000 triangles with corners of at least 15° the smallest corner after clipping and cutting
+/// was 5° with 0.15, 6° with 0.2, 10° with 0.25 and 11° with 0.3; a larger part squeezes the
+/// triangles behind the moved vertex and begins to show in the straightness of the curve.
+pub(super) const SNAP: f64 = 0.25;
 
 /// A crossing nearer to a vertex than this part of its edge is at the vertex.
 pub(super) const TOUCH: f64 = 1e-6;

@@ -81,6 +81,13 @@ impl Triangulation {
         self.point(self.from(h)).distance(self.point(self.to(h)))
     }
 
+    /// Mean length of the edges, in mm.
+    pub(super) fn mean_edge(&self) -> f64 {
+        let count = self.half_edge_count();
+        let sum: f64 = (0..count).map(|h| self.length(HalfEdgeId::new(h))).sum();
+        sum / count.max(1) as f64
+    }
+
     /// The half-edges that leave `v`, counter-clockwise, beginning at the boundary if there is one.
     pub(super) fn outgoing(&self, v: VertexId) -> Vec<HalfEdgeId> {
         let mut start = self.leaving[v.index()];
