@@ -423,7 +423,8 @@ mod tests {
             let text = pattern_svg(&Drawing { name: "n".repeat(letters), ..sleeve() });
             let document = Document::parse(&text).unwrap();
             let mut texts = document.descendants().filter(|n| n.tag_name().name() == "text");
-            let node = texts.find(|n| n.text().is_some_and(|t| t.starts_with("nn"))).unwrap();
+            let node =
+                texts.find(|n| n.text().is_some_and(|t| t.trim().starts_with("nn"))).unwrap();
             node.attribute("font-size").unwrap().parse().unwrap()
         };
         // The piece is 180 mm high: 75 letters of 0.6 times 4 mm.
