@@ -24,6 +24,8 @@ const STROKE: f64 = 0.3;
 const SMALL: f64 = 3.5;
 /// Size of large lettering, in mm.
 const LARGE: f64 = 5.0;
+/// Smallest lettering, in mm.
+const LEAST: f64 = 3.0;
 /// Decimals of a millimetre.
 const DECIMALS: usize = 4;
 /// Mean width of a letter over its height in sans-serif fonts.
@@ -225,7 +227,11 @@ fn lettering(drawing: &Drawing, grain: Option<Stretch>, sheet: &Sheet) -> Group 
             .add(label(bottom - DVec2::new(0.0, gap), LARGE, 0.0, "bottom"))
             .add(label(middle - side, SMALL, 90.0, "weft: along the limb"));
         if !drawing.name.is_empty() {
-            all = all.add(label(middle + side, LARGE, 90.0, &drawing.name));
+            // A long name on a short piece is lettered smaller, down to what can be read.
+            let letters = drawing.name.chars().count() as f64;
+            let fitting = (bottom.y - top.y) / (LETTER_WIDTH * letters);
+            let size = fitting.clamp(LEAST, LARGE);
+            all = all.add(label(middle + side, size, 90.0, &drawing.name));
         }
     }
     for (i, seam) in drawing.seams.iter().enumerate() {
@@ -263,7 +269,7 @@ mod tests {
     use crate::export::DrawingSeam;
 
     /// A sleeve of 240 × 180 mm with a thumb hole, a name that XML has to escape and two points.
-    pub(super) fn sleeve() -> Drawing {
+    fn sleeve() -> Drawing {
         let wave = |x: f64, y: f64| DVec2::new(x + 6.0 * (y / 30.0).sin(), y);
         let heights: Vec<f64> = (0..=18).map(|i| 10.0 * f64::from(i)).collect();
         let left: Vec<DVec2> = heights.iter().map(|y| wave(-120.0, *y)).collect();
@@ -409,6 +415,20 @@ mod tests {
         let low_x = sleeve().outline[0].iter().map(|p| p.x).fold(f64::MAX, f64::min);
         assert!(x_of("20 mmHg") < 112.0 - low_x + 10.0);
         assert!(x_of("17.2 mmHg") > -60.0 - low_x + 10.0);
+    }
+
+    #[test]
+    fn a_long_name_is_lettered_smaller_but_legibly() {
+        let size_of = |letters: usize| -> f64 {
+            let text = pattern_svg(&Drawing { name: "n".repeat(letters), ..sleeve() });
+            let document = Document::parse(&text).unwrap();
+            let mut texts = document.descendants().filter(|n| n.tag_name().name() == "text");
+            let node =
+                texts.find(|n| n.text().is_some_and(|t| t.trim().starts_with("nn"))).unwrap();
+            node.attribute("font-size").unwrap().parse().unwrap()
+        };
+        // The piece is 180 mm high: 75 letters of 0.6 times 4 mm.
+        assert_eq!([size_of(10), size_of(75), size_of(400)], [5.0, 4.0, 3.0]);
     }
 
     #[test]
