@@ -274,6 +274,11 @@ parameters! {
         "Threads with wanted pressures closer than this are smoothed, not interpolated.",
         "A curve through two different strains a few millimetres apart swings far beyond both. \
          Closer threads are fitted by smoothed least squares and the residual is shown.";
+    correct_pressures: bool = true, "", Kind::Switch,
+        "Correct the wanted strain of a thread from the strain that it takes.",
+        "On a doubly curved limb the fit leaves each thread a little off its wanted strain. With \
+         this the fit asks for less or more until the thread as a whole has it; without, it is \
+         the paper's method unchanged.";
     miss_tolerance: f64 = 0.05, "", Kind::Number(0.001..=0.5),
         "A pressure counts as missed when it is off by more than this fraction.",
         "Below it the table gives no reason. A difference under 0.05 kPa never counts.";

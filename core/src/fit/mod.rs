@@ -5,6 +5,7 @@
 //! nothing changes any more. Run coarse to fine: a wide woven model finds the overall shape in few
 //! steps and covers the surface, then the spacing is halved.
 
+mod correction;
 mod cover;
 mod diffusion;
 mod energy;
@@ -12,6 +13,7 @@ mod history;
 
 use glam::DVec2;
 
+pub use correction::Corrections;
 pub use cover::grow;
 pub use diffusion::{gradient, step, step_length};
 pub use energy::{Misfit, stiffness};
@@ -84,6 +86,10 @@ const MOST_LEAN: f64 = 0.0009;
 /// A coarse level is of use only with at least this many cells.
 const FEWEST_CELLS: usize = 30;
 
+/// Corrections of the wanted strains have settled when they change by less than this in a thousand
+/// steps: a hundredth of a usual strain.
+const SETTLED: f64 = 0.002;
+
 /// Steps over which the plateau is measured on the finest level.
 const PLATEAU_WINDOW: u64 = 1000;
 
@@ -93,7 +99,13 @@ const PLATEAU_WINDOW: u64 = 1000;
 /// If the fabric cannot be laid or mapped, or the job is cancelled.
 pub fn diffuse(input: &FitInput<'_>, progress: &dyn Progress) -> Result<Fit, FitError> {
     let parameters = input.parameters;
-    let mut run = Run { input, progress, history: Vec::new(), iterations: 0 };
+    let mut run = Run {
+        input,
+        progress,
+        history: Vec::new(),
+        iterations: 0,
+        corrections: Corrections::none(input.annotations.len()),
+    };
     let squeeze = DVec2::new(parameters.start_warp, parameters.start_weft);
     let mut plane: Vec<DVec2> = input.omega.iter().map(|&p| p * squeeze).collect();
     let mut level = parameters.coarse_levels;
@@ -128,6 +140,7 @@ struct Run<'a> {
     progress: &'a dyn Progress,
     history: Vec<HistoryEntry>,
     iterations: u64,
+    corrections: Corrections,
 }
 
 impl Run<'_> {
@@ -153,17 +166,23 @@ impl Run<'_> {
             model.drop_loose_nodes();
             let (grown, added) = grow(disk, &model, &targets.rest);
             model = self.upright(grown)?;
+            if parameters.correct_pressures {
+                self.corrections.update(&model, &targets, fabric, lambda, steps);
+            }
             targets = self.targets(&model)?;
             let misfit = self.record(&model, &targets);
-            let stopped = if added == 0 && misfit.rms_strain() < parameters.strain_tolerance {
-                Stopped::Tolerance
-            } else if at_plateau(&self.history[begin..], window, parameters.plateau) {
-                Stopped::Plateau
-            } else if self.iterations >= parameters.max_iterations {
-                Stopped::MaxIterations
-            } else {
-                continue;
-            };
+            let settled = self.corrections.rate() <= SETTLED;
+            let stopped =
+                if added == 0 && settled && misfit.rms_strain() < parameters.strain_tolerance {
+                    Stopped::Tolerance
+                } else if settled && at_plateau(&self.history[begin..], window, parameters.plateau)
+                {
+                    Stopped::Plateau
+                } else if self.iterations >= parameters.max_iterations {
+                    Stopped::MaxIterations
+                } else {
+                    continue;
+                };
             return Ok(Fit {
                 model,
                 targets,
@@ -183,6 +202,7 @@ impl Run<'_> {
             self.input.fabric,
             self.input.pressure_model,
             self.input.parameters.row_spacing,
+            self.corrections.strains(),
         )
     }
 

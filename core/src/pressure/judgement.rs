@@ -251,12 +251,14 @@ fn why(
             needs(other, targets.curvatures[other]).is_some_and(|strain| differs(needed, strain))
         })
         .collect();
-    let fitted = targets
+    // What the strain function gave the thread, correction aside.
+    let given = targets
         .threads
         .iter()
         .find(|thread| thread.annotations.contains(&k))
-        .map_or(0.0, |thread| thread.fitted);
-    if !others.is_empty() && differs(needed, fitted) {
+        .and_then(|thread| Some(thread.wanted? + thread.fitted - thread.asked?))
+        .unwrap_or(0.0);
+    if !others.is_empty() && differs(needed, given) {
         return Reason::ThreadConflict { others };
     }
     if !brace.converged {
@@ -266,7 +268,7 @@ fn why(
     if distance < parameters.curvature_radius {
         return Reason::FreeEdge { distance };
     }
-    Reason::Shape { wanted: fitted, reached }
+    Reason::Shape { wanted: given, reached }
 }
 
 fn annotation_place(brace: &Brace<'_>, annotation: &Annotation) -> DVec3 {

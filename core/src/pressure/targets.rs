@@ -38,6 +38,9 @@ pub struct ThreadTarget {
     pub annotations: Vec<usize>,
     /// What Eq. (3) gives, before the fabric's limits; `None` where nothing on it can be pressed.
     pub wanted: Option<f64>,
+    /// What is asked of the fit: `wanted` corrected by what the thread has reached so far, within
+    /// the fabric's limits.
+    pub asked: Option<f64>,
     /// What the strain function gives.
     pub fitted: f64,
 }
@@ -80,7 +83,7 @@ pub enum TargetError {
 }
 
 /// The wanted strains for these annotations; `row_spacing` in mm is the distance of threads below
-/// which strains are smoothed.
+/// which strains are smoothed, `corrections` are added to the wanted strain by annotation.
 ///
 /// # Errors
 /// If there is no fabric, or none near an annotation.
@@ -91,6 +94,7 @@ pub fn target_strains(
     fabric: &Fabric,
     pressure_model: PressureModel,
     row_spacing: f64,
+    corrections: &[f64],
 ) -> Result<Targets, TargetError> {
     let (first, last) = model.row_range().ok_or(TargetError::NoFabric)?;
     let rows = f64::from((last - first).max(1));
@@ -122,10 +126,15 @@ pub fn target_strains(
         .map(|(row, on_it)| {
             let points: Vec<(f64, LocalCurvature)> =
                 on_it.iter().map(|&k| (annotations[k].kpa, curvatures[k])).collect();
+            let wanted = warp_strain(pressure_model, fabric, &points);
+            let correction: f64 =
+                on_it.iter().map(|&k| corrections[k]).sum::<f64>() / on_it.len() as f64;
+            let within = |strain: f64| strain.clamp(0.0, fabric.max_strain);
             ThreadTarget {
                 row,
                 t: parameter(row),
-                wanted: warp_strain(pressure_model, fabric, &points),
+                wanted,
+                asked: wanted.map(|strain| within(within(strain) + correction)),
                 annotations: on_it,
                 fitted: 0.0,
             }
@@ -133,7 +142,7 @@ pub fn target_strains(
         .collect();
     let data: Vec<Datum> = threads
         .iter()
-        .filter_map(|thread| thread.wanted.map(|strain| Datum { t: thread.t, strain }))
+        .filter_map(|thread| thread.asked.map(|strain| Datum { t: thread.t, strain }))
         .collect();
     let closest = (row_spacing / (rows * model.spacing())).min(0.5);
     let function = StrainFunction::new(&data, fabric.max_strain, closest);

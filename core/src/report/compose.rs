@@ -105,9 +105,10 @@ fn strain_function(found: &Found<'_>) -> StrainFunctionReport {
             .filter_map(|thread| {
                 thread.wanted.map(|strain| StrainDatum {
                     t: thread.t,
-                    strain,
+                    wanted: strain,
+                    asked: thread.asked.unwrap_or(strain),
                     fitted: thread.fitted,
-                    residual: thread.fitted - strain,
+                    residual: thread.fitted - thread.asked.unwrap_or(strain),
                 })
             })
             .collect(),
@@ -169,7 +170,7 @@ fn fit_warnings(found: &Found<'_>) -> Vec<Warning> {
                 ),
             )),
             // Half a per cent of strain is some 3 % of a usual one.
-            Some(wanted) if (thread.fitted - wanted).abs() > 0.005 => {
+            Some(wanted) if (thread.fitted - thread.asked.unwrap_or(wanted)).abs() > 0.005 => {
                 warnings.push(Warning::new(
                     "strain_smoothed",
                     format!(

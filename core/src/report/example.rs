@@ -69,13 +69,21 @@ pub(super) fn report() -> Report {
                 iteration: 50,
                 spacing_mm: 20.0,
                 nodes: 160,
+                springs: 4200,
                 energy: 80.0,
                 e_ssd: 20.0,
             }],
         },
         strain_function: StrainFunctionReport {
+            form: "smoothed",
             rows: vec![StrainRow { y_mm: 0.0, t: 0.0, strain: 0.149 }],
-            data: vec![StrainDatum { t: 0.5, strain: 0.15, fitted: 0.149, residual: -0.001 }],
+            data: vec![StrainDatum {
+                t: 0.5,
+                wanted: 0.15,
+                asked: 0.15,
+                fitted: 0.149,
+                residual: -0.001,
+            }],
         },
         pressures: vec![reached, missed],
         pattern: PatternReport {

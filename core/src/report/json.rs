@@ -180,11 +180,14 @@ pub struct StrainRow {
 pub struct StrainDatum {
     /// Where, from 0 to 1.
     pub t: f64,
-    /// The strain asked.
-    pub strain: f64,
-    /// The function's value there.
+    /// The strain that the wanted pressures need, Eq. (3).
+    pub wanted: f64,
+    /// What the fit was asked for: `wanted` within the fabric's limits, corrected by what the
+    /// thread took.
+    pub asked: f64,
+    /// The strain function's value there.
     pub fitted: f64,
-    /// `fitted − strain`; zero where the function interpolates.
+    /// `fitted − asked`; zero where the function interpolates.
     pub residual: f64,
 }
 
