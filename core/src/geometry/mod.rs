@@ -1,6 +1,7 @@
 //! Geometry of a surface: location, curvature, straightest paths, girths.
 
 mod curvature;
+mod girth;
 mod location;
 #[cfg(test)]
 pub(crate) mod shapes;
@@ -10,5 +11,6 @@ pub use curvature::{
     Curvature, MeyerCurvature, ScaleCurvature, ScaleFit, ShapeOperator, VertexCurvature,
     meyer_mean_and_gaussian,
 };
+pub use girth::{Girth, Measures, UnitError, guard_unit, measure};
 pub use location::{Locator, SurfacePoint, closest_on_triangle};
 pub use straightest::{Walk, walk};
