@@ -85,7 +85,7 @@ fn describe(validated: Validated, unit: LengthUnit, parameters: &Parameters) -> 
         triangles: surface.triangle_count(),
         size_mm: Some((high - low).to_array()),
         area_mm2: Some(surface.total_area()),
-        length_mm: measures.length_mm,
+        length_mm: (measures.length_mm > 0.0).then_some(measures.length_mm),
         girths: measures
             .girths
             .iter()

@@ -48,7 +48,7 @@ fn surface(found: &Found<'_>) -> SurfaceReport {
         triangles: found.region.triangle_count(),
         boundary_loops: found.region.boundary_loops().len(),
         area_mm2: found.region.total_area(),
-        length_mm: found.measures.length_mm,
+        length_mm: (found.measures.length_mm > 0.0).then_some(found.measures.length_mm),
         girths: found
             .measures
             .girths
