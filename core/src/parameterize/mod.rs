@@ -1,7 +1,7 @@
 //! The initial planar parameterization Ω (step 1 of the paper's algorithm).
 //!
-//! The intrinsic parameterization of the paper's reference [5] where it can be used, a flip-free
-//! map where it cannot, and which of the two is said. Either is at true scale and upright: x
+//! The intrinsic parameterization (the paper's reference 5) where it can be used, a flip-free map
+//! where it cannot, and that is said. Either is at true scale and upright: x
 //! along warp, y along weft, the first marker vertically above the second.
 
 mod flip_free;

@@ -2,11 +2,12 @@
 //!
 //! A centre line runs through the middles of the level sets of a function along the limb:
 //! harmonic between the two end loops of a tube; of a slit limb, the function whose gradient
-//! follows the axes of its own slabs. A girth is the section across the centre line that closes
+//! follows the axes of its own slabs; a seam whose two sides coincide is sewn shut before. A girth is the section across the centre line that closes
 //! round it. Bent limbs are measured across their own axis, not across a global one.
 //!
-//! Limit: near ends that are cut askew a section does not close; it is measured as near to the
-//! end as it closes, or left out.
+//! Limits: near ends that are cut askew a section does not close; it is measured as near to the
+//! end as it closes, or left out. Of an open limb (a gap along it) the length is that between its
+//! farthest ends, and the outermost sections may be scraps of an end cut askew.
 
 mod axis;
 mod section;
@@ -18,7 +19,7 @@ use glam::DVec3;
 
 use self::axis::{CentreLine, along_normals, between_loops, range};
 use self::section::{Piece, plane_section};
-use crate::surface::Surface;
+use crate::surface::{Surface, VertexId};
 
 /// A second boundary loop at least this share of the longest is the other end of a tube; a
 /// shorter one is a cut-out. A thumb hole in a slit wrist brace has 0.15 of the outline's length;
@@ -88,6 +89,8 @@ pub fn measure(surface: &Surface, step_mm: f64) -> Measures {
     let size_mm = if surface.vertex_count() == 0 { DVec3::ZERO } else { high - low };
     let mut measures =
         Measures { length_mm: 0.0, girths: Vec::new(), size_mm, area_mm2: surface.total_area() };
+    let sewn = sewn_shut(surface);
+    let surface = sewn.as_ref().unwrap_or(surface);
     if let Some(limb) = Limb::new(surface, size_mm.length()) {
         measures.length_mm = limb.line.length();
         measures.girths = limb.girths(step_mm);
@@ -99,6 +102,40 @@ pub fn measure(surface: &Surface, step_mm: f64) -> Measures {
         }
     }
     measures
+}
+
+/// The surface with boundary vertices at the very same place made one: a limb cut along a seam is
+/// whole again. `None` if there are none or they do not fit together.
+fn sewn_shut(surface: &Surface) -> Option<Surface> {
+    let mut boundary: Vec<VertexId> =
+        surface.vertex_ids().filter(|&v| surface.is_boundary_vertex(v)).collect();
+    let key = |v: VertexId| surface.point(v).to_array();
+    let order = |a: VertexId, b: VertexId| {
+        let (p, q) = (key(a), key(b));
+        (0..3).fold(std::cmp::Ordering::Equal, |o, i| o.then(p[i].total_cmp(&q[i])))
+    };
+    boundary.sort_by(|&a, &b| order(a, b).then(a.cmp(&b)));
+    let mut same: Vec<VertexId> = surface.vertex_ids().collect();
+    for w in boundary.windows(2) {
+        if order(w[0], w[1]).is_eq() {
+            same[w[1].index()] = same[w[0].index()];
+        }
+    }
+    let mut number = vec![None; same.len()];
+    let mut points = Vec::new();
+    for v in surface.vertex_ids().filter(|v| same[v.index()] == *v) {
+        number[v.index()] = Some(VertexId::new(points.len()));
+        points.push(surface.point(v));
+    }
+    if points.len() == same.len() {
+        return None;
+    }
+    let mut triangles = Vec::with_capacity(surface.triangle_count());
+    for t in surface.triangles() {
+        let [a, b, c] = t.map(|v| number[same[v.index()].index()]);
+        triangles.push([a?, b?, c?]);
+    }
+    Surface::new(points, triangles).ok()
 }
 
 /// Whether the last girth is longer than the first: a slit limb is then measured from its other
@@ -271,7 +308,7 @@ mod tests {
     #[test]
     fn a_slit_or_half_open_limb_is_measured_along_its_axis() {
         let shut = grid(40, 60, false, |s, t| {
-            let (sin, cos) = (TAU * s).sin_cos();
+            let (sin, cos) = (TAU * (s % 1.0)).sin_cos();
             DVec3::new((50.0 - 10.0 * t) * cos, (50.0 - 10.0 * t) * sin, 150.0 * t)
         });
         let m = measure(&shut, 25.0);
@@ -303,7 +340,7 @@ mod tests {
                     kept.push(whole.triangle(t).map(|v| {
                         *number[v.index()].get_or_insert_with(|| {
                             points.push(whole.point(v));
-                            crate::surface::VertexId::new(points.len() - 1)
+                            VertexId::new(points.len() - 1)
                         })
                     }));
                 }
