@@ -115,6 +115,7 @@ fn changes() -> BTreeMap<&'static str, Change> {
             ..plain(&[])
         },
     );
+    cases.insert("correct_pressures", plain(&["--correct-pressures=false"]));
     cases.insert("girth_step", plain(&["--girth-step", "7"]));
     cases
 }
