@@ -10,6 +10,7 @@ mod cover;
 mod diffusion;
 mod energy;
 mod history;
+mod orientation;
 
 use glam::DVec2;
 
@@ -18,6 +19,7 @@ pub use cover::grow;
 pub use diffusion::{gradient, step, step_length};
 pub use energy::{Misfit, stiffness};
 pub use history::{HistoryEntry, Stopped, at_plateau};
+pub use orientation::{lean, turn};
 
 use crate::design::{Fabric, PressureModel};
 use crate::geometry::SurfacePoint;
@@ -78,17 +80,8 @@ pub enum FitError {
     Cancelled,
 }
 
-/// The markers may lean by this much before the pattern is turned and the fabric laid anew, in
-/// radians: 0.05°, 0.2 mm over a pattern of 220 mm. Laying anew costs a little smoothness, so it is
-/// not done for less.
-const MOST_LEAN: f64 = 0.0009;
-
 /// A coarse level is of use only with at least this many cells.
 const FEWEST_CELLS: usize = 30;
-
-/// Corrections of the wanted strains have settled when they change by less than this in a thousand
-/// steps: a hundredth of a usual strain.
-const SETTLED: f64 = 0.002;
 
 /// Steps over which the plateau is measured on the finest level.
 const PLATEAU_WINDOW: u64 = 1000;
@@ -164,14 +157,16 @@ impl Run<'_> {
             }
             self.iterations += steps;
             model.drop_loose_nodes();
+            model = self.upright(model)?;
+            model.drop_loose_nodes();
             let (grown, added) = grow(disk, &model, &targets.rest);
-            model = self.upright(grown)?;
+            model = grown;
             if parameters.correct_pressures {
                 self.corrections.update(&model, &targets, fabric, lambda, steps);
             }
             targets = self.targets(&model)?;
             let misfit = self.record(&model, &targets);
-            let settled = self.corrections.rate() <= SETTLED;
+            let settled = self.corrections.settled();
             let stopped =
                 if added == 0 && settled && misfit.rms_strain() < parameters.strain_tolerance {
                     Stopped::Tolerance
@@ -220,20 +215,13 @@ impl Run<'_> {
         misfit
     }
 
-    /// The model with its markers on a vertical line: turned in the plane and laid anew where they
-    /// lean.
+    /// The model with its markers on a vertical line.
     fn upright(&self, model: WovenModel) -> Result<WovenModel, MappingError> {
         let disk = self.input.disk;
         let mapping = Mapping::new(disk, &model);
         let [upper, lower] = self.input.markers;
-        let up = mapping.point(upper)? - mapping.point(lower)?;
-        let lean = up.x.atan2(up.y);
-        if lean.abs() <= MOST_LEAN {
-            return Ok(model);
-        }
-        let turn = DVec2::from_angle(lean);
-        let plane: Vec<DVec2> = mapping.vertices()?.into_iter().map(|p| turn.rotate(p)).collect();
-        Ok(lay(disk, &centred(&plane, model.spacing()), model.spacing()))
+        let (upper, lower) = (mapping.point(upper)?, mapping.point(lower)?);
+        Ok(turn(disk, &model, lean(upper, lower), 0.5 * (upper + lower)))
     }
 }
 
