@@ -4,7 +4,11 @@
 //! boundary node lays fabric over fabric that is already there, and the number of nodes explodes.
 //! So a node is inserted only where (a) a thread that is already there, prolonged straight on, stays
 //! inside the surface with some room to spare, (b) no node lies nearer than half a thread's
-//! distance, (c) the cells it closes lie the right way round, and (d) a whole cell holds it.
+//! distance, (c) the cells it closes lie the right way round, (d) a whole cell holds it, and (e) it
+//! has not left the surface several times already: at an edge that runs along a thread a node would
+//! be put in and fall out for ever.
+
+use std::collections::BTreeMap;
 
 use glam::DVec3;
 
@@ -20,13 +24,40 @@ const ROOM: f64 = 1.1;
 /// would be one.
 const CLEARANCE: f64 = 0.5;
 
+/// A node that has left the surface this often on one level is not put in again.
+const MOST_RETURNS: u32 = 2;
+
+/// How often each node has left the surface.
+#[derive(Debug, Clone, Default)]
+pub struct Departures(BTreeMap<NodeIndex, u32>);
+
+impl Departures {
+    /// Counts the nodes that `before` has and `after` has not.
+    pub fn count(&mut self, before: &WovenModel, after: &WovenModel) {
+        for node in before.filled().map(|slot| before.index(slot)) {
+            if after.point(node).is_none() {
+                *self.0.entry(node).or_default() += 1;
+            }
+        }
+    }
+
+    fn barred(&self, node: NodeIndex) -> bool {
+        self.0.get(&node).is_some_and(|&times| times >= MOST_RETURNS)
+    }
+}
+
 /// The model with one ring of nodes added wherever a gap has opened, and their number.
 #[must_use]
-pub fn grow(surface: &Surface, model: &WovenModel, rest: &RestLengths) -> (WovenModel, usize) {
+pub fn grow(
+    surface: &Surface,
+    model: &WovenModel,
+    rest: &RestLengths,
+    departures: &Departures,
+) -> (WovenModel, usize) {
     let search = NodeSearch::new(surface, model);
     let mut grown = model.clone();
     let mut added: Vec<NodeIndex> = Vec::new();
-    for node in gaps(model) {
+    for node in gaps(model).into_iter().filter(|&node| !departures.barred(node)) {
         let Some(point) = prolong(surface, model, rest, node) else { continue };
         if search.any_within(&point, CLEARANCE * model.spacing()) {
             continue;

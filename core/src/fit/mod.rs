@@ -15,7 +15,7 @@ mod orientation;
 use glam::DVec2;
 
 pub use correction::Corrections;
-pub use cover::grow;
+pub use cover::{Departures, grow};
 pub use diffusion::{gradient, step, step_length};
 pub use energy::{Misfit, stiffness};
 pub use history::{HistoryEntry, Stopped, at_plateau};
@@ -86,6 +86,10 @@ const FEWEST_CELLS: usize = 30;
 /// Steps over which the plateau is measured on the finest level.
 const PLATEAU_WINDOW: u64 = 1000;
 
+/// After so many windows a coarse level has given what it can, and threads that have not settled
+/// will not.
+const MOST_WINDOWS: u64 = 6;
+
 /// The paper's diffusion, coarse to fine.
 ///
 /// # Errors
@@ -143,7 +147,8 @@ impl Run<'_> {
         let lambda = step_length(parameters.damping, fabric);
         // A disturbance crosses a level of half as many threads in a quarter of the steps.
         let window = (PLATEAU_WINDOW >> (2 * level)).max(parameters.steps_per_pass);
-        let begin = self.history.len();
+        let (begin, first) = (self.history.len(), self.iterations);
+        let mut departures = Departures::default();
         let mut targets = self.targets(&model)?;
         self.record(&model, &targets);
         loop {
@@ -152,6 +157,7 @@ impl Run<'_> {
             }
             let left = parameters.max_iterations - self.iterations;
             let steps = parameters.steps_per_pass.min(left);
+            let before = model.clone();
             for _ in 0..steps {
                 model = step(disk, &model, &targets.rest, fabric, lambda);
             }
@@ -159,25 +165,31 @@ impl Run<'_> {
             model.drop_loose_nodes();
             model = self.upright(model)?;
             model.drop_loose_nodes();
-            let (grown, added) = grow(disk, &model, &targets.rest);
+            departures.count(&before, &model);
+            let (grown, added) = grow(disk, &model, &targets.rest, &departures);
             model = grown;
             if parameters.correct_pressures {
                 self.corrections.update(&model, &targets, fabric, lambda, steps);
             }
             targets = self.targets(&model)?;
             let misfit = self.record(&model, &targets);
-            let settled = self.corrections.settled();
-            let stopped =
-                if added == 0 && settled && misfit.rms_strain() < parameters.strain_tolerance {
-                    Stopped::Tolerance
-                } else if settled && at_plateau(&self.history[begin..], window, parameters.plateau)
-                {
-                    Stopped::Plateau
-                } else if self.iterations >= parameters.max_iterations {
-                    Stopped::MaxIterations
-                } else {
-                    continue;
-                };
+            let course = &self.history[begin..];
+            // A thread that does not answer to its correction does not hold up the fit for ever.
+            let settled = self.corrections.settled()
+                || at_plateau(course, MOST_WINDOWS * window, parameters.plateau);
+            let coarse_enough = level > 0 && self.iterations - first >= MOST_WINDOWS * window;
+            let stopped = if added == 0
+                && settled
+                && misfit.rms_strain() < parameters.strain_tolerance
+            {
+                Stopped::Tolerance
+            } else if coarse_enough || (settled && at_plateau(course, window, parameters.plateau)) {
+                Stopped::Plateau
+            } else if self.iterations >= parameters.max_iterations {
+                Stopped::MaxIterations
+            } else {
+                continue;
+            };
             return Ok(Fit {
                 model,
                 targets,
