@@ -140,3 +140,101 @@ fn folds(surface: &Surface, model: &WovenModel, node: NodeIndex) -> bool {
         (c - a).cross(d - b).dot(normal) <= 0.0
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+    use crate::geometry::shapes::grid;
+    use crate::weave::lay;
+
+    const SIZE: f64 = 100.0;
+
+    fn square() -> (Surface, Vec<DVec2>) {
+        let surface = grid(20, 20, false, |s, t| DVec3::new(SIZE * s, SIZE * t, 0.0));
+        let plane = surface.points().iter().map(|p| p.truncate() + DVec2::new(0.9, 1.3)).collect();
+        (surface, plane)
+    }
+
+    fn rest() -> RestLengths {
+        RestLengths::new(5.0, 0, vec![0.0], 0.0)
+    }
+
+    fn filled(surface: &Surface, mut model: WovenModel) -> WovenModel {
+        for _ in 0..40 {
+            let (grown, added) = grow(surface, &model, &rest(), &Departures::default());
+            model = grown;
+            if added == 0 {
+                return model;
+            }
+        }
+        panic!("still growing after 40 rings: {} nodes", model.node_count());
+    }
+
+    #[test]
+    fn a_patch_of_fabric_grows_until_the_surface_is_covered_once() {
+        let (surface, plane) = square();
+        let whole = lay(&surface, &plane, 5.0);
+        let mut patch = whole.clone();
+        for slot in whole.filled() {
+            let p = whole.place_in(slot);
+            if p.distance(DVec3::new(40.0, 55.0, 0.0)) > 20.0 {
+                patch.remove(slot);
+            }
+        }
+        patch.drop_loose_nodes();
+        assert!(patch.node_count() * 5 < whole.node_count());
+        let grown = filled(&surface, patch);
+        // Within the room that a new node keeps from the edge, the same nodes at the same places.
+        for slot in grown.filled() {
+            let there = whole.place(grown.index(slot)).unwrap();
+            assert!(there.distance(grown.place_in(slot)) < 1e-9);
+        }
+        let inner = |p: DVec3| (p - SIZE / 2.0).truncate().abs().max_element() < SIZE / 2.0 - 0.6;
+        for slot in whole.filled().filter(|&slot| inner(whole.place_in(slot))) {
+            assert!(grown.place(whole.index(slot)).is_some(), "{}", whole.place_in(slot));
+        }
+    }
+
+    #[test]
+    fn fabric_is_never_laid_over_fabric() {
+        // Two patches whose numbering does not meet: the gap between them is filled from both
+        // sides, and neither grows over the other.
+        let (surface, plane) = square();
+        let whole = lay(&surface, &plane, 5.0);
+        let mut split =
+            WovenModel::empty(5.0, NodeIndex { i: 0, j: 0 }, NodeIndex { i: 22, j: 40 });
+        for slot in whole.filled() {
+            let (node, p) = (whole.index(slot), whole.place_in(slot));
+            let point = whole.point_in(slot).unwrap();
+            if p.x < 30.0 {
+                split.put(node, point, &surface);
+            } else if p.x > 62.0 {
+                split.put(node.offset(0, 10), point, &surface);
+            }
+        }
+        let grown = filled(&surface, split);
+        let area = grown.cell_count() as f64 * 25.0;
+        assert!(area < SIZE * SIZE, "{area}");
+        let places: Vec<DVec3> = grown.filled().map(|slot| grown.place_in(slot)).collect();
+        for (k, p) in places.iter().enumerate() {
+            let nearest = places[..k].iter().map(|q| p.distance(*q)).fold(f64::INFINITY, f64::min);
+            assert!(nearest > 2.4, "{nearest} at {p}");
+        }
+    }
+
+    #[test]
+    fn a_node_that_keeps_leaving_is_not_put_in_again() {
+        let (surface, plane) = square();
+        let whole = lay(&surface, &plane, 5.0);
+        let mut without = whole.clone();
+        let node = NodeIndex { i: 10, j: 10 };
+        without.remove(whole.slot(node).unwrap());
+        let mut departures = Departures::default();
+        departures.count(&whole, &without);
+        assert!(grow(&surface, &without, &rest(), &departures).0.point(node).is_some());
+        departures.count(&whole, &without);
+        assert!(grow(&surface, &without, &rest(), &departures).0.point(node).is_none());
+    }
+}

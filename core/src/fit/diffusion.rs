@@ -110,3 +110,112 @@ fn straighten(
     let beside = |s: usize| if model.point_in(s).is_some() { bend(s) } else { DVec3::ZERO };
     beside(slot - stride) - 2.0 * bend(slot) + beside(slot + stride)
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec2;
+
+    use super::*;
+    use crate::fit::Misfit;
+    use crate::geometry::shapes::grid;
+    use crate::weave::{NodeIndex, lay};
+
+    fn fabric() -> Fabric {
+        Fabric { warp: 0.7, weft: 1.9, diagonal: 0.11, ..Fabric::default() }
+    }
+
+    /// A stretched, sheared and unevenly laid square; `wanted` is the strain asked of its rows.
+    fn uneven(wanted: f64) -> (Surface, WovenModel, RestLengths) {
+        let surface = grid(30, 30, false, |s, t| DVec3::new(90.0 * s, 90.0 * t, 0.0));
+        let plane: Vec<DVec2> = surface
+            .points()
+            .iter()
+            .map(|p| {
+                let (x, y) = (p.x / 1.3, p.y / 1.2);
+                DVec2::new(x + 0.1 * y + (y / 9.0).sin(), y + 0.7 * (x / 11.0).cos()) + 0.4
+            })
+            .collect();
+        let model = lay(&surface, &plane, 6.0);
+        let rows = vec![wanted, 0.5 * wanted, wanted, 0.2 * wanted];
+        (surface, model, RestLengths::new(6.0, 2, rows, 0.02))
+    }
+
+    #[test]
+    fn the_gradient_is_that_of_the_energy_where_threads_are_stretched() {
+        let (_, model, rest) = uneven(0.05);
+        let shortest = model
+            .springs()
+            .filter_map(|s| Some(s.length / 6.0 - 1.0 - rest.strain(s.kind, s.a)?))
+            .fold(f64::INFINITY, f64::min);
+        assert!(shortest > 0.0, "{shortest}: a thread is short, and bends");
+        let h = 1e-6;
+        for slot in model.filled() {
+            let energy_at = |offset: DVec3| {
+                let nodes = (0..model.slot_count())
+                    .map(|s| {
+                        let off = if s == slot { offset } else { DVec3::ZERO };
+                        model.point_in(s).map(|p| (p, model.place_in(s) + off))
+                    })
+                    .collect();
+                Misfit::of(&model.with_nodes(nodes), &rest, &fabric()).energy
+            };
+            let difference = DVec3::from_array(
+                [DVec3::X, DVec3::Y, DVec3::Z]
+                    .map(|axis| (energy_at(h * axis) - energy_at(-h * axis)) / (2.0 * h)),
+            );
+            let force = gradient(&model, slot, &rest, &fabric());
+            assert!(force.distance(difference) < 1e-7, "{force} {difference}");
+        }
+    }
+
+    #[test]
+    fn steps_lower_the_energy_and_do_not_depend_on_threads() {
+        let (surface, start, rest) = uneven(0.05);
+        let lambda = step_length(0.125, &fabric());
+        let energy = |model: &WovenModel| {
+            let misfit = Misfit::of(model, &rest, &fabric());
+            misfit.energy / misfit.springs as f64
+        };
+        let mut model = start.clone();
+        for _ in 0..20 {
+            let next = step(&surface, &model, &rest, &fabric(), lambda);
+            assert!(energy(&next) < energy(&model));
+            model = next;
+        }
+        let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+        let again = alone.install(|| {
+            (0..20).fold(start, |model, _| step(&surface, &model, &rest, &fabric(), lambda))
+        });
+        assert_eq!(again, model);
+    }
+
+    #[test]
+    fn a_shortened_row_straightens_instead_of_buckling() {
+        let surface = grid(40, 40, false, |s, t| DVec3::new(120.0 * s, 120.0 * t, 0.0));
+        let plane: Vec<DVec2> =
+            surface.points().iter().map(|p| p.truncate() / DVec2::new(0.9, 1.0) + 0.4).collect();
+        // Every warp thread is a tenth shorter than wanted, and zigzags by a twentieth of a mm.
+        let laid = lay(&surface, &plane, 5.0);
+        let nodes = (0..laid.slot_count())
+            .map(|slot| {
+                let odd = laid.index(slot).j.rem_euclid(2) == 1;
+                let off = if odd { 0.05 } else { -0.05 } * DVec3::Y;
+                let path = walk(&surface, &laid.point_in(slot)?, off, off.length());
+                Some((path.end, path.end.position(&surface)))
+            })
+            .collect();
+        let mut model = laid.with_nodes(nodes);
+        let soft = Fabric { diagonal: 0.0, ..Fabric::default() };
+        let rest = RestLengths::new(5.0, 0, vec![0.0], 0.0);
+        let middle = |model: &WovenModel| {
+            let at = |j| model.place(NodeIndex { i: 12, j }).unwrap().y;
+            ((at(12) - 2.0 * at(13) + at(14)) / 4.0).abs()
+        };
+        let before = middle(&model);
+        assert!((before - 0.05).abs() < 1e-9);
+        for _ in 0..20 {
+            model = step(&surface, &model, &rest, &soft, step_length(0.125, &soft));
+        }
+        assert!(middle(&model) < 0.5 * before, "{} {before}", middle(&model));
+    }
+}
