@@ -1,0 +1,113 @@
+//! What each stage costs on the elbow sample: `cargo bench -p wovenfit-tests`.
+//!
+//! A diffusion step should cost the same per node at any number of nodes; every stage is measured at
+//! 20,000 triangles. Machines differ and are noisy: compare figures of one run.
+
+#![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
+
+use std::hint::black_box;
+
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use glam::DVec2;
+use wovenfit_core::design::Design;
+use wovenfit_core::export::{flat_obj, pattern_svg, worn_obj};
+use wovenfit_core::fit::{step, step_length};
+use wovenfit_core::geometry::{Curvature, measure};
+use wovenfit_core::mapping::Mapping;
+use wovenfit_core::parameterize::initial;
+use wovenfit_core::parameters::Parameters;
+use wovenfit_core::progress::Silent;
+use wovenfit_core::samples::sample;
+use wovenfit_core::seams::{CutSurface, Markers, open_to_disk, place};
+use wovenfit_core::surface::{RawMesh, Surface, SurfaceOptions, validate};
+use wovenfit_core::units::LengthUnit;
+use wovenfit_core::weave::{RestLengths, WovenModel, lay};
+
+const TRIANGLES: usize = 20_000;
+
+struct Elbow {
+    mesh: RawMesh,
+    design: Design,
+    options: SurfaceOptions,
+    surface: Surface,
+    cut: CutSurface,
+    markers: Markers,
+    omega: Vec<DVec2>,
+}
+
+fn elbow() -> Elbow {
+    let sample = sample("elbow", TRIANGLES, 0.0).expect("the elbow exists");
+    let options = SurfaceOptions {
+        unit: LengthUnit::Millimetre,
+        keep_largest: false,
+        close_holes: 30.0,
+        facing: None,
+    };
+    let surface = validate(&sample.mesh, &options).expect("the elbow is sound").surface;
+    let cut = open_to_disk(&surface, &[]).expect("the elbow is a tube");
+    let (markers, _) = place(&cut, sample.design.orientation).expect("its markers are on it");
+    let omega = initial(&cut.disk, &markers.points).expect("it can be laid flat").coordinates;
+    Elbow { mesh: sample.mesh, design: sample.design, options, surface, cut, markers, omega }
+}
+
+/// A woven model of about `nodes` nodes.
+fn woven(elbow: &Elbow, nodes: usize) -> WovenModel {
+    let spacing = (elbow.surface.total_area() / nodes as f64).sqrt();
+    let squeezed: Vec<DVec2> = elbow.omega.iter().map(|&p| p * DVec2::new(0.9, 1.0)).collect();
+    lay(&elbow.cut.disk, &squeezed, spacing)
+}
+
+fn diffusion_step(criterion: &mut Criterion) {
+    let elbow = elbow();
+    let fabric = &elbow.design.fabric;
+    let mut group = criterion.benchmark_group("diffusion step");
+    for nodes in [2_000, 8_000, 32_000] {
+        let model = woven(&elbow, nodes);
+        let rest = RestLengths::new(model.spacing(), 0, vec![0.1], 0.0);
+        let lambda = step_length(0.125, fabric);
+        group.throughput(Throughput::Elements(model.node_count() as u64));
+        group.bench_function(BenchmarkId::from_parameter(model.node_count()), |bencher| {
+            bencher.iter(|| step(&elbow.cut.disk, black_box(&model), &rest, fabric, lambda));
+        });
+    }
+    group.finish();
+}
+
+fn stages(criterion: &mut Criterion) {
+    let elbow = elbow();
+    let parameters = Parameters::default();
+    let disk = &elbow.cut.disk;
+    let mut group = criterion.benchmark_group("stage at 20k triangles");
+    group.sample_size(10);
+    group.bench_function("surface", |b| b.iter(|| validate(&elbow.mesh, &elbow.options)));
+    group.bench_function("girths", |b| b.iter(|| measure(&elbow.surface, 20.0)));
+    group.bench_function("cut", |b| b.iter(|| open_to_disk(&elbow.surface, &[])));
+    group.bench_function("curvature at every vertex", |b| {
+        b.iter(|| Curvature::new(&elbow.surface, &parameters).at_vertices());
+    });
+    group.bench_function("parameterization", |b| {
+        b.iter(|| initial(disk, &elbow.markers.points));
+    });
+    group.bench_function("laying", |b| b.iter(|| lay(disk, &elbow.omega, 5.0)));
+    let model = woven(&elbow, 2_000);
+    group.bench_function("mapping", |b| b.iter(|| Mapping::new(disk, &model).vertices()));
+    group.bench_function("whole flow", |b| {
+        b.iter(|| wovenfit_core::flatten(&elbow.mesh, &elbow.design, &parameters, &Silent));
+    });
+    let done = wovenfit_core::flatten(&elbow.mesh, &elbow.design, &parameters, &Silent)
+        .expect("the elbow can be flattened");
+    group.bench_function("files", |b| {
+        b.iter(|| {
+            (
+                worn_obj(&done.disk, &done.coordinates),
+                flat_obj(&done.disk, &done.coordinates),
+                pattern_svg(&done.drawing),
+                done.report.to_json(),
+            )
+        });
+    });
+    group.finish();
+}
+
+criterion_group!(benches, diffusion_step, stages);
+criterion_main!(benches);
