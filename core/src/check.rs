@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::denoise::{Calm, calm};
 use crate::design::Facing;
 use crate::geometry::{Curvature, guard_unit, measure};
 use crate::parameters::Parameters;
@@ -56,6 +57,9 @@ fn describe(validated: Validated, unit: LengthUnit, parameters: &Parameters) -> 
             defects.push(of_the_whole("unit", error.to_string()));
         }
     }
+    let Calm { surface, radius, warning } = calm(surface, parameters);
+    warnings.extend(warning);
+    let parameters = &Parameters { curvature_radius: radius, ..parameters.clone() };
     let shape = shape_of(&surface);
     match shape {
         Shape::Closed => warnings.push(Warning::new(

@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 mod check;
+mod denoise;
 pub mod design;
 mod error;
 pub mod export;

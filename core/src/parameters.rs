@@ -2,7 +2,7 @@
 //!
 //! The command line's flags, the hosts' dialogs and the documentation are made from
 //! [`PARAMETERS`]; a parameter exists once. What the designer wants of one brace (fabric,
-//! pressures, seams) is no parameter: see [`Design`](crate::Design).
+//! pressures, seams) is no parameter: see [`Design`](crate::design::Design).
 
 use std::ops::RangeInclusive;
 
@@ -22,6 +22,15 @@ pub enum CurvatureEstimate {
     Scale,
     /// Meyer et al. (2002) on the triangles round a vertex: for clean, smooth meshes only.
     Meyer,
+}
+
+/// Whether a noisy scan is smoothed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Denoise {
+    /// If its noise is large enough to matter.
+    Auto,
+    /// Never.
+    Off,
 }
 
 /// What a parameter may be.
@@ -139,6 +148,8 @@ const METHODS: [(&str, Method); 1] = [("diffusion", Method::Diffusion)];
 const ESTIMATES: [(&str, CurvatureEstimate); 2] =
     [("scale", CurvatureEstimate::Scale), ("meyer", CurvatureEstimate::Meyer)];
 
+const DENOISE: [(&str, Denoise); 2] = [("auto", Denoise::Auto), ("off", Denoise::Off)];
+
 const UNITS: [(&str, Option<LengthUnit>); 5] = [
     ("auto", None),
     ("mm", Some(LengthUnit::Millimetre)),
@@ -162,6 +173,7 @@ macro_rules! choice_value {
 }
 
 choice_value!(Method, METHODS);
+choice_value!(Denoise, DENOISE);
 choice_value!(CurvatureEstimate, ESTIMATES);
 choice_value!(Option<LengthUnit>, UNITS);
 
@@ -222,6 +234,12 @@ parameters! {
         "Close holes of the scan whose rim is at most this long.",
         "Small holes are gaps of the scanner and are closed; longer rims are openings of the \
          brace (its two ends, a thumb hole) and stay. 0 closes none.";
+    denoise: Denoise = Denoise::Auto, "", names(&DENOISE),
+        "Whether a noisy scan is smoothed.",
+        "`auto` measures the scan's noise; above 0.05 mm the surface is smoothed over \
+         `curvature_radius`, and curvature is read over a larger radius if the noise would \
+         otherwise blur it; both are said. Noise makes a limb's lengths too long and its curvature, \
+         and with it the pattern, a matter of chance. `off` takes the scan as it is.";
     curvature: CurvatureEstimate = CurvatureEstimate::Scale, "", names(&ESTIMATES),
         "How the curvature of the surface is estimated.",
         "`scale` fits a quadric over `curvature_radius`, exact on cylinders and spheres and calm \

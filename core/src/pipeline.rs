@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use crate::denoise::{Calm, calm};
 use crate::design::Design;
 use crate::error::Error;
 use crate::export::Drawing;
@@ -37,6 +38,8 @@ pub struct Flattening {
 pub(crate) struct Found<'a> {
     pub design: &'a Design,
     pub parameters: &'a Parameters,
+    /// Radius over which curvature was read, in mm.
+    pub curvature_radius: f64,
     pub region: &'a Surface,
     pub measures: &'a Measures,
     pub annotations: &'a [Annotation],
@@ -67,6 +70,11 @@ pub fn flatten(
     let Validated { surface, mut warnings, .. } =
         validate(raw, &surface_options(design, parameters))?;
     warnings.extend(guard_size(&surface, design.unit, parameters)?);
+    let Calm { surface, radius, warning } = calm(surface, parameters);
+    warnings.extend(warning);
+    // What the scan's noise allows goes before what was asked for.
+    let given = parameters;
+    let parameters = &Parameters { curvature_radius: radius, ..parameters.clone() };
 
     begin(Stage::Region)?;
     let region = clip(&surface, &design.region)?;
@@ -107,7 +115,8 @@ pub fn flatten(
     let measures = measure(&region.surface, parameters.girth_step);
     let found = Found {
         design,
-        parameters,
+        parameters: given,
+        curvature_radius: radius,
         region: &region.surface,
         measures: &measures,
         annotations: &annotations,

@@ -74,6 +74,16 @@ fn changes() -> BTreeMap<&'static str, Change> {
             changed: [&SHORT[..], &["--close-holes", "120"]].concat(),
         },
     );
+    let noisy = wovenfit_core::samples::sample("elbow", 6000, 0.3).unwrap();
+    let triangles = noisy.mesh.polygons.iter().map(|p| [p[0], p[1], p[2]]).collect();
+    cases.insert(
+        "denoise",
+        Change {
+            mesh: Mesh { points: noisy.mesh.points, triangles },
+            design: support::design::wanting(&[]),
+            ..plain(&["--denoise", "off"])
+        },
+    );
     cases.insert("curvature", plain(&["--curvature", "meyer"]));
     cases.insert("curvature_radius", plain(&["--curvature-radius", "20"]));
     cases.insert("spacing", replaced(&long, &["--quiet", "--spacing", "14"]));

@@ -5,6 +5,7 @@ mod girth;
 mod location;
 #[cfg(test)]
 pub(crate) mod shapes;
+mod smoothing;
 mod straightest;
 
 pub use curvature::{
@@ -13,4 +14,5 @@ pub use curvature::{
 };
 pub use girth::{Girth, Measures, UnitError, guard_unit, measure};
 pub use location::{Locator, SurfacePoint, closest_on_triangle};
+pub use smoothing::{curvature_noise, noise, smooth};
 pub use straightest::{Walk, walk};

@@ -20,7 +20,7 @@ pub(crate) fn compose(found: &Found<'_>, mut warnings: Vec<Warning>) -> Report {
         pressure_model: found.design.pressure_model,
         fabric: found.design.fabric.clone(),
         parameters: found.parameters.into(),
-        curvature_radius_mm: found.parameters.curvature_radius,
+        curvature_radius_mm: found.curvature_radius,
         surface: surface(found),
         fit: fit(found),
         strain_function: strain_function(found),

@@ -5,7 +5,7 @@
 //! seam or through a thin limb to a node that is close in space only.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap};
+use std::collections::{BinaryHeap, HashSet};
 
 use glam::DVec3;
 
@@ -102,7 +102,8 @@ impl<'a> NodeSearch<'a> {
         mut visit: impl FnMut(TriangleId, f64) -> f64,
     ) {
         let mut reach = limit;
-        let mut seen = BTreeSet::from([start]);
+        // Asked and never iterated, so its order does not matter.
+        let mut seen = HashSet::from([start]);
         let mut heap = BinaryHeap::from([Reverse((Distance(0.0), start))]);
         while let Some(Reverse((Distance(distance), t))) = heap.pop() {
             if distance > reach {

@@ -94,6 +94,8 @@ pub struct ScaleFit {
     pub points: usize,
     /// Root mean square distance of the vertices from the patch along its normal, in mm.
     pub residual_mm: f64,
+    /// How far the patch lies above the point, along its normal, in mm.
+    pub offset_mm: f64,
 }
 
 impl<'a> ScaleCurvature<'a> {
@@ -197,7 +199,7 @@ impl<'a> ScaleCurvature<'a> {
         }
         // The whole surface is too small to say how it curves: flat, over no radius.
         let flat = ShapeOperator::from_tensor(normal, glam::DMat3::ZERO);
-        ScaleFit { shape: flat, radius_used: 0.0, points: 0, residual_mm: 0.0 }
+        ScaleFit { shape: flat, radius_used: 0.0, points: 0, residual_mm: 0.0, offset_mm: 0.0 }
     }
 
     /// The vertices connected to the seeds within a radius, with their weights.
@@ -327,6 +329,7 @@ fn fit_patch(mut normal: DVec3, near: &[(DVec3, f64)], radius: f64) -> Option<Sc
         radius_used: radius,
         points: near.len(),
         residual_mm: residual,
+        offset_mm: radius * offset,
     })
 }
 
