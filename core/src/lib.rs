@@ -10,6 +10,7 @@ mod check;
 pub mod design;
 mod error;
 pub mod export;
+pub mod field;
 pub mod fit;
 pub mod geometry;
 pub mod mapping;
