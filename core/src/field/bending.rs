@@ -39,6 +39,10 @@ use crate::surface::Surface;
 /// The smaller radius over which pressure is stated, in mm: about a crest's own.
 pub const FINE_RADIUS_MM: f64 = 5.0;
 
+/// A patch of 5 mm with too few points is taken a quarter larger (as on edges of 2.5 mm, where it
+/// holds nine to twelve); one that had to grow further says nothing about 5 mm.
+const MOST_GROWN_MM: f64 = 1.3 * FINE_RADIUS_MM;
+
 /// σ_κ R² √N / σ, see above: √115.2.
 const CURVATURE_PER_NOISE: f64 = 10.733;
 
@@ -168,8 +172,8 @@ fn read_fine(
         .par_iter()
         .map(|&place| {
             let (point, _) = locator.closest(places.point(place))?;
-            // A patch that had to grow says nothing about 5 mm.
-            Some(curvature.fit(&point)).filter(|fit| fit.radius_used == FINE_RADIUS_MM)
+            Some(curvature.fit(&point))
+                .filter(|fit| fit.radius_used > 0.0 && fit.radius_used <= MOST_GROWN_MM)
         })
         .collect();
     let noise = |fit: &ScaleFit| fit.residual_mm / (1.0 - COEFFICIENTS / fit.points as f64).sqrt();
@@ -179,7 +183,7 @@ fn read_fine(
         .iter()
         .map(|fit| {
             fit.map_or(f64::INFINITY, |fit| {
-                let squared = FINE_RADIUS_MM * FINE_RADIUS_MM;
+                let squared = fit.radius_used * fit.radius_used;
                 CURVATURE_PER_NOISE * noise_mm / (squared * (fit.points as f64).sqrt())
             })
         })

@@ -116,8 +116,11 @@ impl Pull {
                 inside[place] = false;
             }
         }
+        // Tangents of a patch that bends away lean out of its middle's tangent plane.
+        let tangential = sampling.spread(&tangential);
+        let flat = |(&force, &normal): (&DVec3, &DVec3)| force - force.dot(normal) * normal;
         Self {
-            tangential: sampling.spread(&tangential),
+            tangential: tangential.iter().zip(normals).map(flat).collect(),
             normal: sampling.spread(&normal),
             inside,
         }

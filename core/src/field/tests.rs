@@ -83,14 +83,21 @@ fn assert_near(value: f64, want: f64, tolerance: f64, of: &str) {
 
 const TUBE: [usize; 2] = [112, 40];
 
-/// A tube of radius 45 mm and 100 mm long, stretched round by the same strain everywhere.
+/// A point of a tube of radius 45 mm, 100 mm long.
+fn on_tube(s: f64, t: f64) -> DVec3 {
+    // Once round is exactly where it began.
+    round(45.0, TAU * (s % 1.0), 20.0 + 100.0 * t)
+}
+
+/// The limb under it, which goes on for 20 mm at both ends.
+fn limb(edge: f64) -> Surface {
+    crate::geometry::shapes::cylinder(45.0, 140.0, edge)
+}
+
+/// The tube stretched round by the same strain everywhere.
 fn tube(strain: f64) -> Worn {
-    Worn::new(
-        TUBE,
-        |s, t| round(45.0, TAU * s, 100.0 * t),
-        |s, t| DVec2::new(TAU * 45.0 * s / (1.0 + strain), 100.0 * t),
-    )
-    .sewn(TUBE)
+    let pattern = |s: f64, t: f64| DVec2::new(TAU * 45.0 * s / (1.0 + strain), 100.0 * t);
+    Worn::new(TUBE, on_tube, pattern).sewn(TUBE)
 }
 
 /// The vertices for which friction is stated.
@@ -102,8 +109,7 @@ fn stated(field: &Field) -> impl Iterator<Item = (usize, f64)> + '_ {
 fn a_tube_stretched_alike_presses_alike_and_needs_no_friction() {
     let worn = tube(0.24);
     // The seam is no edge of the limb: curvature there is the tube's, from the closed scan.
-    let scan = crate::geometry::shapes::cylinder(45.0, 100.0, 2.5);
-    let field = worn.field_with(&scan, &fabric(0.5, 0.5), &Parameters::default());
+    let field = worn.field_with(&limb(2.5), &fabric(0.5, 0.5), &Parameters::default());
     for i in 0..worn.disk.vertex_count() {
         assert_near(field.warp_strain[i], 0.24, 0.001, "warp strain");
         assert_near(field.weft_strain[i], 0.0, 1e-9, "weft strain");
@@ -120,7 +126,7 @@ fn a_tube_stretched_alike_presses_alike_and_needs_no_friction() {
     for (i, friction) in stated(&field) {
         assert!(friction < 0.002, "{friction} at {}", worn.disk.points()[i]);
         let z = worn.disk.points()[i].z;
-        assert!(z > 9.9 && z < 90.1, "{z}");
+        assert!(z > 29.9 && z < 110.1, "{z}");
     }
 }
 
@@ -150,7 +156,7 @@ fn a_hoop_on_a_cone_slides_off_but_for_the_tangent_of_its_half_angle() {
             assert_near(field.pressure_kpa[i], want, 0.02 * want, "pressure");
             count += 1;
         }
-        assert!(count > 500, "{count}");
+        assert!(count > 300, "{count}");
     }
 }
 
@@ -276,7 +282,7 @@ fn nodal_forces_press_as_the_formula_says() {
     };
     let worn = Worn::new(
         [40, 56],
-        |s, t| at(1.0 - s, t),
+        at,
         |s, t| DVec2::new(45.0 * 1.4 * s * (0.8 + 0.1 * t), 110.0 * t + 4.0 * s * s),
     );
     let fabric = fabric(0.5, 0.8);
@@ -309,7 +315,7 @@ fn nodal_forces_press_as_the_formula_says() {
 
 #[test]
 fn a_scanners_noise_is_measured_and_hides_what_it_must() {
-    let clean = crate::geometry::shapes::cylinder(45.0, 100.0, 2.0);
+    let clean = limb(2.0);
     let worn = tube(0.24);
     for deviation in [0.1, 0.3] {
         let scan = noisy(&clean, deviation, 5);
@@ -324,7 +330,7 @@ fn a_scanners_noise_is_measured_and_hides_what_it_must() {
         assert!(field.fine_pressure_kpa.iter().all(Option::is_none));
     }
     // Triangles of 9 mm carry no patch of 5 mm.
-    let coarse = crate::geometry::shapes::cylinder(45.0, 100.0, 9.0);
+    let coarse = limb(9.0);
     let field = worn.field_with(&coarse, &fabric(0.5, 0.5), &Parameters::default());
     assert!(matches!(field.fine_unreadable, Some(Unreadable::TooCoarse { .. })));
     // A radius of 5 mm is read once.
@@ -356,9 +362,9 @@ fn a_crest_is_read_over_5_mm_and_half_lost_over_10() {
     assert!(fine.at.y.abs() < 2.0, "{}", fine.at);
     let i = worn.disk.points().iter().position(|p| *p == fine.at).unwrap();
     let truth = 0.5 * field.warp_strain[i] * curvature(0.0) * 1e3;
-    assert!(truth > 3.0 * field.pressure_kpa[0], "{truth}");
     assert!(fine.value > 0.75 * truth && fine.value < 1.05 * truth, "{} {truth}", fine.value);
-    assert!(summary.max_kpa.value < 0.75 * fine.value, "{}", summary.max_kpa.value);
+    assert!(field.pressure_kpa[i] < 0.8 * fine.value, "{}", field.pressure_kpa[i]);
+    assert!(summary.max_kpa.value < 0.8 * fine.value, "{}", summary.max_kpa.value);
     assert!(summary.area_over_limit > 0.0);
 }
 
@@ -391,15 +397,14 @@ fn the_sides_of_a_seam_share_their_pressure() {
     let columns = TUBE[0] as f64;
     let worn = Worn::new(
         TUBE,
-        |s, t| round(45.0, TAU * s, 100.0 * t),
+        on_tube,
         |s, t| {
             let x = if s < 0.5 { s / 1.1 } else { 0.5 / 1.1 + (s - 0.5) / 1.3 };
             DVec2::new(TAU * 45.0 * x, 100.0 * t)
         },
     )
     .sewn(TUBE);
-    let scan = crate::geometry::shapes::cylinder(45.0, 100.0, 2.5);
-    let field = worn.field_with(&scan, &fabric(0.5, 0.5), &Parameters::default());
+    let field = worn.field_with(&limb(2.5), &fabric(0.5, 0.5), &Parameters::default());
     let middle = 20 * (TUBE[0] + 1);
     let [left, right] = [middle, middle + TUBE[0]];
     assert_eq!(field.pressure_kpa[left], field.pressure_kpa[right]);
