@@ -11,6 +11,7 @@ mod denoise;
 pub mod design;
 mod error;
 pub mod export;
+pub mod field;
 pub mod fit;
 pub mod geometry;
 pub mod mapping;

@@ -6,6 +6,7 @@ use crate::denoise::{Calm, calm};
 use crate::design::Design;
 use crate::error::Error;
 use crate::export::Drawing;
+use crate::field::{Field, FieldInput, everywhere};
 use crate::fit::{Fit, FitInput, diffuse};
 use crate::geometry::{Curvature, Locator, Measures, guard_unit, measure};
 use crate::mapping::Mapping;
@@ -28,6 +29,8 @@ pub struct Flattening {
     /// Pattern coordinates of its vertices, in mm, x along warp, y along weft, the lower left
     /// corner of the pattern's extent at the origin.
     pub coordinates: Vec<DVec2>,
+    /// Strain, pressure and friction at its vertices.
+    pub field: Field,
     /// The pattern as a drawing.
     pub drawing: Drawing,
     /// Every figure and warning.
@@ -46,6 +49,9 @@ pub(crate) struct Found<'a> {
     pub fit: &'a Fit,
     pub pattern: &'a Pattern,
     pub judgements: &'a [Judgement],
+    pub disk: &'a Surface,
+    pub coordinates: &'a [DVec2],
+    pub field: &'a Field,
     /// Where the woven model's row 0 lies in the pattern, in mm.
     pub row_zero: f64,
 }
@@ -103,15 +109,26 @@ pub fn flatten(
 
     begin(Stage::Report)?;
     let pattern = pattern(&cut, &coordinates);
+    let free_edges = free_edges(&cut);
     let brace = Brace {
         disk: &cut.disk,
         coordinates: &coordinates,
-        free_edges: &free_edges(&cut),
+        free_edges: &free_edges,
         model: &fit.model,
         targets: &fit.targets,
         converged: fit.stopped.converged(),
     };
     let judgements = judge(&brace, &annotations, &design.fabric, design.pressure_model, parameters);
+    let field = everywhere(&FieldInput {
+        scan: &surface,
+        disk: &cut.disk,
+        coordinates: &coordinates,
+        seams: &cut.seams,
+        free_edges: &free_edges,
+        fabric: &design.fabric,
+        pressure_model: design.pressure_model,
+        parameters,
+    });
     let measures = measure(&region.surface, parameters.girth_step);
     let found = Found {
         design,
@@ -123,11 +140,14 @@ pub fn flatten(
         fit: &fit,
         pattern: &pattern,
         judgements: &judgements,
+        disk: &cut.disk,
+        coordinates: &coordinates,
+        field: &field,
         row_zero: -corner.y,
     };
     let report = compose(&found, warnings);
     let drawing = draw(&found, &cut, &coordinates, &markers);
-    Ok(Flattening { disk: cut.disk, coordinates, drawing, report })
+    Ok(Flattening { disk: cut.disk, coordinates, field, drawing, report })
 }
 
 /// How the design and the parameters want the triangles read.

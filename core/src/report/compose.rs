@@ -4,7 +4,9 @@ use super::{
     ENERGY_UNIT, FitReport, GirthReport, HistoryEntry, PatternReport, PressureReport, Reason,
     Report, SeamReport, StrainDatum, StrainFunctionReport, StrainRow, SurfaceReport,
 };
+use super::field::{missed, report_field};
 use crate::design::Limits;
+use crate::field::reachable_kpa;
 use crate::pipeline::Found;
 use crate::units::{PER_M_PER_PER_MM, mmhg_from_kpa};
 use crate::warning::Warning;
@@ -13,6 +15,10 @@ use crate::warning::Warning;
 pub(crate) fn compose(found: &Found<'_>, mut warnings: Vec<Warning>) -> Report {
     warnings.extend(fit_warnings(found));
     warnings.extend(pressure_warnings(found));
+    let pressures = pressures(found);
+    warnings.extend(missed(&pressures));
+    let (field, said) = report_field(found.field, found.disk, found.coordinates, found.design);
+    warnings.extend(said);
     warnings.extend(pattern_warnings(found));
     Report {
         wovenfit: env!("CARGO_PKG_VERSION"),
@@ -24,7 +30,8 @@ pub(crate) fn compose(found: &Found<'_>, mut warnings: Vec<Warning>) -> Report {
         surface: surface(found),
         fit: fit(found),
         strain_function: strain_function(found),
-        pressures: pressures(found),
+        pressures,
+        field,
         pattern: PatternReport {
             width_mm: found.pattern.width,
             height_mm: found.pattern.height,
@@ -130,6 +137,12 @@ fn pressures(found: &Found<'_>) -> Vec<PressureReport> {
             weft_curvature_per_m: judgement.curvature.weft * PER_M_PER_PER_MM,
             warp_strain: Some(judgement.warp_strain),
             weft_strain: Some(judgement.weft_strain),
+            reachable_kpa: Some(reachable_kpa(
+                found.design.pressure_model,
+                &found.design.fabric,
+                &judgement.curvature,
+                judgement.weft_strain,
+            )),
             thread: Some(i64::from(judgement.row)),
             reason: judgement
                 .reason

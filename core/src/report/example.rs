@@ -5,6 +5,7 @@ use super::json::{
     PressureReport, Reason, Report, SeamReport, StrainDatum, StrainFunctionReport, StrainRow,
     SurfaceReport,
 };
+use super::field::FieldReport;
 use crate::design::{Fabric, Piece, PressureModel};
 use crate::parameters::Parameters;
 use crate::warning::Warning;
@@ -21,6 +22,7 @@ pub(super) fn report() -> Report {
         weft_curvature_per_m: 2.0,
         warp_strain: Some(0.149),
         weft_strain: Some(-0.001),
+        reachable_kpa: Some([-0.01, 7.7]),
         thread: Some(-3),
         reason: None,
     };
@@ -30,6 +32,7 @@ pub(super) fn report() -> Report {
         got_local_kpa: None,
         warp_strain: None,
         weft_strain: None,
+        reachable_kpa: None,
         thread: None,
         reason: Some(Reason {
             code: "concave",
@@ -86,6 +89,7 @@ pub(super) fn report() -> Report {
             }],
         },
         pressures: vec![reached, missed],
+        field: FieldReport { max_kpa: 3.1, limit_kpa: 6.5, ..FieldReport::default() },
         pattern: PatternReport {
             width_mm: 230.0,
             height_mm: 250.0,

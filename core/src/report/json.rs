@@ -5,6 +5,7 @@
 
 use serde::ser::{Serialize, SerializeMap, Serializer};
 
+use super::field::FieldReport;
 use crate::design::{Fabric, Piece, PressureModel};
 use crate::export::json_text;
 use crate::parameters::{PARAMETERS, Parameters};
@@ -34,6 +35,8 @@ pub struct Report {
     pub strain_function: StrainFunctionReport,
     /// The wanted pressures and what was reached, in the order of the design.
     pub pressures: Vec<PressureReport>,
+    /// Pressure, strain and friction everywhere.
+    pub field: FieldReport,
     /// The flat pattern.
     pub pattern: PatternReport,
     /// The seams of the pattern.
@@ -212,6 +215,9 @@ pub struct PressureReport {
     pub warp_strain: Option<f64>,
     /// Strain along weft.
     pub weft_strain: Option<f64>,
+    /// Least and largest pressure that warp strains from zero to the fabric's limit give here, in
+    /// kPa; negative where the fabric would lift off.
+    pub reachable_kpa: Option<[f64; 2]>,
     /// The row of the warp thread, where there is one.
     pub thread: Option<i64>,
     /// Why it misses what was wanted; `None` where it does not.
@@ -220,7 +226,7 @@ pub struct PressureReport {
 
 impl Serialize for PressureReport {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(Some(14))?;
+        let mut map = serializer.serialize_map(Some(16))?;
         map.serialize_entry("at", &self.at)?;
         map.serialize_entry("asked_kpa", &self.asked_kpa)?;
         map.serialize_entry("got_kpa", &self.got_kpa)?;
@@ -233,6 +239,9 @@ impl Serialize for PressureReport {
         map.serialize_entry("weft_curvature_per_m", &self.weft_curvature_per_m)?;
         map.serialize_entry("warp_strain", &self.warp_strain)?;
         map.serialize_entry("weft_strain", &self.weft_strain)?;
+        map.serialize_entry("reachable_kpa", &self.reachable_kpa)?;
+        let reachable = self.reachable_kpa.map(|range| range.map(mmhg_from_kpa));
+        map.serialize_entry("reachable_mmhg", &reachable)?;
         map.serialize_entry("thread", &self.thread)?;
         map.serialize_entry("reason", &self.reason)?;
         map.end()
@@ -286,14 +295,20 @@ mod tests {
             json.pointer(pointer).unwrap().as_object().unwrap().keys().cloned().collect()
         };
         for (pointer, wanted) in [
-            ("", "wovenfit curvature_radius_mm surface fit pressures pattern seams warnings"),
+            ("", "wovenfit curvature_radius_mm surface fit pressures field pattern seams warnings"),
             ("/surface", "vertices triangles boundary_loops area_mm2 girths"),
             ("/surface/girths/0", "at_mm girth_mm"),
             ("/fit", "method iterations converged energy e_ssd history"),
             (
                 "/pressures/0",
                 "at asked_kpa got_kpa got_local_kpa mean_curvature_per_m warp_curvature_per_m \
-                 weft_curvature_per_m warp_strain weft_strain reason asked_mmhg got_mmhg",
+                 weft_curvature_per_m warp_strain weft_strain reason asked_mmhg got_mmhg \
+                 reachable_kpa reachable_mmhg",
+            ),
+            (
+                "/field",
+                "max_kpa max_at max_5mm_kpa max_5mm_reason p95_kpa area_over_limit_mm2 \
+                 area_lifting_mm2 area_compressed_mm2 friction_max friction_p95 limit_kpa",
             ),
             ("/pattern", "width_mm height_mm area_mm2 flipped overlaps"),
             ("/seams/0", "left_mm right_mm"),

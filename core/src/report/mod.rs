@@ -4,11 +4,13 @@ mod check;
 mod compose;
 #[cfg(test)]
 mod example;
+mod field;
 mod json;
 mod table;
 
 pub use check::{CheckReport, CurvatureReport, Defect, LoopReport};
 pub(crate) use compose::compose;
+pub use field::{FieldReport, PressureRow};
 pub use json::{
     ENERGY_UNIT, FitReport, GirthReport, HistoryEntry, ParameterValues, PatternReport,
     PressureReport, Reason, Report, SeamReport, StrainDatum, StrainFunctionReport, StrainRow,

@@ -162,7 +162,7 @@ pub fn fit(
 
 /// The four files of a pattern.
 pub fn files(flattening: &Flattening) -> Vec<Named> {
-    let Flattening { disk, coordinates, drawing, report } = flattening;
+    let Flattening { disk, coordinates, drawing, report, .. } = flattening;
     [
         ("worn.obj", worn_obj(disk, coordinates)),
         ("flat.obj", flat_obj(disk, coordinates)),
