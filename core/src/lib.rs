@@ -13,6 +13,7 @@ pub mod export;
 pub mod fit;
 pub mod geometry;
 pub mod mapping;
+pub mod page;
 pub mod parameterize;
 pub mod parameters;
 pub mod pattern;
