@@ -212,10 +212,11 @@ pub(super) fn energy(input: &PageInput<'_>) -> Option<Document> {
         y: Axis::logarithmic(history.iter().map(|h| h.1), "E_SSD, logarithmic"),
     };
     let mut all = field.axes(drawing(SIZE.x, SIZE.y, "E_SSD over the steps of the fit"));
-    for level in history.chunk_by(|a, b| a.2 == b.2) {
+    for (k, level) in history.chunk_by(|a, b| a.2 == b.2).enumerate() {
         let places = level.iter().map(|h| field.place(h.0, h.1.log10()));
         let start = field.place(level[0].0, field.y.low);
-        let head = DVec2::new(start.x, FIELD[0].y - 14.0);
+        // Alternating heights: the first levels are short.
+        let head = DVec2::new(start.x, FIELD[0].y - if k % 2 == 0 { 26.0 } else { 8.0 });
         all = all.add(line(start, head, QUIET, 1.0).set("stroke-dasharray", "2 4")).add(path(
             path_data(places),
             "#00599c",

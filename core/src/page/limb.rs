@@ -8,6 +8,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
 use super::PageInput;
 use super::draw::{
@@ -101,7 +102,7 @@ impl<'a> Limb<'a> {
         let (wide, high) = (span(right).max(span(front)), span(up));
         let scale = ((WIDTH - 2.0 * MARGIN) / wide).min(HEIGHT / high);
         let views = ways
-            .into_iter()
+            .into_par_iter()
             .map(|(name, viewer)| {
                 let across = up.cross(viewer);
                 // A pixel more on every side for the edge.
@@ -135,25 +136,35 @@ impl<'a> Limb<'a> {
 
     /// The four views coloured by a quantity.
     pub(super) fn figure(&self, quantity: &Quantity) -> Tag {
-        let views = self.views.iter().enumerate().map(|(k, view)| {
+        let pictures: Vec<String> =
+            self.views.par_iter().map(|view| self.picture(view, quantity)).collect();
+        let views = self.views.iter().zip(pictures).enumerate().map(|(k, (view, picture))| {
             let caption = tag("figcaption").text(view.name);
-            tag("figure").child(self.drawing(view, quantity, k == 0)).child(caption)
+            tag("figure").child(self.drawing(view, quantity, picture, k == 0)).child(caption)
         });
         tag("div").class("views").children(views)
     }
 
-    fn drawing(&self, view: &View, quantity: &Quantity, with_scale: bool) -> svg::Document {
-        let words = format!("The limb {}, coloured by {}", view.name, quantity.name);
+    fn picture(&self, view: &View, quantity: &Quantity) -> String {
+        let camera = &view.camera;
         let light = Light {
             normals: &self.normals,
-            from: (view.camera.viewer + 0.25 * view.camera.up - 0.25 * view.camera.right)
-                .normalize_or_zero(),
+            from: (camera.viewer + 0.25 * camera.up - 0.25 * camera.right).normalize_or_zero(),
         };
-        let pixel = 1.0 / view.camera.scale;
-        let address =
-            data_address(self.input.disk, &view.raster, &quantity.field(), Some(light), pixel);
+        let pixel = 1.0 / camera.scale;
+        data_address(self.input.disk, &view.raster, &quantity.field(), Some(light), pixel)
+    }
+
+    fn drawing(
+        &self,
+        view: &View,
+        quantity: &Quantity,
+        picture: String,
+        with_scale: bool,
+    ) -> svg::Document {
+        let words = format!("The limb {}, coloured by {}", view.name, quantity.name);
         let mut all =
-            drawing(WIDTH, self.height, &words).add(image(view.corner, view.size, address));
+            drawing(WIDTH, self.height, &words).add(image(view.corner, view.size, picture));
         for run in self.seams.iter().flat_map(|seam| visible_runs(view, seam)) {
             let data = path_data(run.iter().map(|&p| view.place(p)));
             all = all

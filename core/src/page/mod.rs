@@ -248,19 +248,18 @@ fn pressures(input: &PageInput<'_>) -> Tag {
 
 fn limb(input: &PageInput<'_>, quantities: &[Quantity]) -> Tag {
     let limb = Limb::new(input);
-    let mut all = section("On the limb").child(note(
-        "Up is near the body. The front is the side of the pattern's orientation markers; right \
-         and left are those of one who looks at it. Circles: the points of the table. Dashes: \
-         seams.",
-    ));
-    for quantity in quantities {
-        let block = tag("div")
-            .class("keep")
-            .child(tag("h3").text(quantity.name))
-            .child(limb.figure(quantity))
-            .child(quantity.legend());
-        all = all.child(block);
-    }
+    let explanation = note(
+        "Up is near the body. The front is the side of the pattern\u{2019}s orientation markers; \
+         right and left are those of one who looks at it. Circles: the points of the table. \
+         Dashes: seams.",
+    );
+    let mut blocks = quantities
+        .iter()
+        .map(|quantity| [tag("h3").text(quantity.name), limb.figure(quantity), quantity.legend()]);
+    // A heading stays with what it is the heading of when the page is printed.
+    let first = tag("div").class("keep").child(tag("h2").text("On the limb")).child(explanation);
+    let mut all = tag("section").child(first.children(blocks.next().into_iter().flatten()));
+    all = all.children(blocks.map(|block| tag("div").class("keep").children(block)));
     if input.pressure_kpa.is_none() {
         all = all
             .child(note("Pressure was computed at the points of the table alone, not everywhere."));
@@ -275,7 +274,9 @@ fn pattern(input: &PageInput<'_>, quantities: &[Quantity]) -> Tag {
         tag("figure").child(plan.drawing(quantity)).child(tag("figcaption").text(words))
     });
     let class = if quantities.len() > 1 { "pair" } else { "single" };
-    section("The pattern")
+    tag("section")
+        .class("keep")
+        .child(tag("h2").text("The pattern"))
         .child(note(
             "Seen from the outside of the brace, not to scale: cut from pattern.svg, printed at \
              100 %. Colours as above; the small figures are values. Circles: wanted pressures. \
@@ -312,7 +313,9 @@ fn curves(input: &PageInput<'_>) -> Tag {
             if fit.converged { "converged" } else { "not converged" }
         ),
     );
-    section("Warp strain along the limb, and the course of the fit")
+    tag("section")
+        .class("keep")
+        .child(tag("h2").text("Warp strain along the limb, and the course of the fit"))
         .child(tag("div").class("pair").children([strain, course].into_iter().flatten()))
 }
 
@@ -325,7 +328,8 @@ fn girths(input: &PageInput<'_>, pairs: &[GirthPair]) -> Tag {
     all.child(note(
         "The pattern\u{2019}s girth is the length in the flat pattern of the very line on which \
          the limb\u{2019}s girth was measured, across its centre line. The reduction is what the \
-         pattern is shorter by, in per cent of the limb.",
+         pattern is shorter by, in per cent of the limb; where that line runs askew to the warp, it \
+         is not the strain of the threads.",
     ))
     .child(tag("div").class("pair").child(tag("div").child(tables::girths(pairs))).child(
         tag("figure").child(girth::lines(input, pairs)).child(tag("figcaption").text(caption)),
@@ -338,7 +342,9 @@ fn fabric(input: &PageInput<'_>) -> Tag {
         shown(mmhg_from_kpa(input.limit_kpa), 0),
         shown(input.limit_kpa, 1)
     );
-    section("Fabric and settings")
+    tag("section")
+        .class("keep")
+        .child(tag("h2").text("Fabric and settings"))
         .child(tables::fabric(input))
         .child(note(limit))
         .child(tables::settings(input))

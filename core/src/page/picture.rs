@@ -13,13 +13,13 @@ use super::scale::{Bands, Class, Rgb, luminance};
 use crate::surface::Surface;
 
 /// Steps of light: 2 % each over the range used, finer than an eye tells on a printed page.
-const SHADES: usize = 20;
+const SHADES: usize = 16;
 /// Share of light that a face turned away from it still has: little, so that bands keep their grey.
 const LEAST_LIGHT: f64 = 0.7;
-/// Ground of what is below zero.
+/// Ground of what is negative.
 pub(super) const NEGATIVE: Rgb = [238, 238, 238];
 /// What has no value.
-const UNKNOWN: Rgb = [190, 190, 190];
+pub(super) const UNKNOWN: Rgb = [190, 190, 190];
 /// The inside of the limb, seen through its ends.
 pub(super) const INSIDE: Rgb = [222, 218, 212];
 /// Lines on light ground.
@@ -251,7 +251,7 @@ mod tests {
 
     fn picture(limit: Option<f64>) -> (Vec<u8>, Bands) {
         let (surface, values) = ramp();
-        let bands = Bands { scale: Scale::Cividis, low: 0.0, step: 10.0, count: 3 };
+        let bands = Bands { scale: Scale::Cividis, low: 0.0, step: 10.0, count: 3, floor: 0.0 };
         let raster = Raster::new(&surface, surface.points(), &camera());
         let field = Field { values: &values, bands, limit };
         (paint(&surface, &raster, &field, None, 0.1), bands)
@@ -302,8 +302,8 @@ mod tests {
 
     #[test]
     fn the_most_bands_fit_one_byte() {
-        let bands = Bands { scale: Scale::Magma, low: 0.0, step: 1.0, count: 9 };
+        let bands = Bands { scale: Scale::Magma, low: 0.0, step: 1.0, count: 11, floor: 0.0 };
         assert!(palette(&bands).len() <= 256);
-        assert_eq!(usize::from(Palette { bands: 9 }.nothing()) + 1, palette(&bands).len());
+        assert_eq!(usize::from(Palette { bands: 11 }.nothing()) + 1, palette(&bands).len());
     }
 }

@@ -4,13 +4,20 @@ use glam::DVec2;
 
 use super::draw::{Anchor, INK, drawing, line, rectangle, text};
 use super::html::{Tag, shown, tag};
-use super::picture::{Field, INSIDE, NEGATIVE};
+use super::picture::{Field, INSIDE, NEGATIVE, UNKNOWN};
 use super::scale::{Bands, Scale, css, weighted_percentile};
 use crate::surface::{Surface, VertexId};
 use crate::units::mmhg_from_kpa;
 
 /// Bands of less than a per cent of strain, or a mmHg, would show noise.
 const LEAST_STEP: f64 = 1.0;
+
+/// Strain below which fabric counts as compressed, in per cent: half a per cent is eased in by hand.
+const COMPRESSED_BELOW: f64 = -0.5;
+
+/// Pressure below which fabric counts as lifting off, in kPa: tensions that pull no harder than this
+/// are those of a fabric that only lies there.
+const LIFTING_BELOW_KPA: f64 = -0.01;
 
 /// A value at every vertex that pictures are coloured by.
 #[derive(Debug, Clone)]
@@ -19,7 +26,7 @@ pub(super) struct Quantity {
     pub(super) name: &'static str,
     /// The unit that is shown.
     pub(super) unit: &'static str,
-    /// What less than zero means.
+    /// What less than the bands' floor means.
     pub(super) negative: &'static str,
     /// By vertex, in that unit.
     pub(super) values: Vec<f64>,
@@ -41,7 +48,7 @@ impl Quantity {
             name: "Warp strain",
             unit: "%",
             negative: "compressed",
-            bands: bands(Scale::Cividis, &values, weights),
+            bands: bands(Scale::Cividis, &values, weights, COMPRESSED_BELOW),
             range: range(&values, weights),
             values,
             limit: None,
@@ -60,7 +67,7 @@ impl Quantity {
             name: "Computed pressure",
             unit: "mmHg",
             negative: "lifts off",
-            bands: bands(Scale::Magma, &values, weights),
+            bands: bands(Scale::Magma, &values, weights, mmhg_from_kpa(LIFTING_BELOW_KPA)),
             range: range(&values, weights),
             values,
             limit: Some(mmhg_from_kpa(limit_kpa)),
@@ -108,13 +115,16 @@ impl Quantity {
             bands.scale.name()
         ));
         let has = |test: &dyn Fn(f64) -> bool| self.values.iter().any(|&value| test(value));
-        if has(&|value| value < 0.0) {
+        if has(&|value| value < bands.floor) {
             keys = keys.child(self.key(css(NEGATIVE), INK, -1.0, self.negative));
         }
         if let Some(limit) = self.limit.filter(|&limit| has(&|value| value > limit)) {
             let ground = css(bands.colour(bands.count - 1));
             let words = format!("above the limit of {} {}", shown(limit, 0), self.unit);
             keys = keys.child(self.key(ground, "#ffffff", 1.0, &words));
+        }
+        if has(&|value| !value.is_finite()) {
+            keys = keys.child(self.key(css(UNKNOWN), "none", 1.0, "not known"));
         }
         keys = keys.child(self.key(css(INSIDE), "none", 1.0, "the limb's inside"));
         tag("div").class("legend").child(bar).child(keys)
@@ -143,8 +153,8 @@ fn pairs<'a>(values: &'a [f64], weights: &'a [f64]) -> impl Iterator<Item = (f64
     values.iter().copied().zip(weights.iter().copied())
 }
 
-fn bands(scale: Scale, values: &[f64], weights: &[f64]) -> Bands {
-    Bands::of(scale, pairs(values, weights), LEAST_STEP)
+fn bands(scale: Scale, values: &[f64], weights: &[f64], floor: f64) -> Bands {
+    Bands::of(scale, pairs(values, weights), LEAST_STEP, floor)
 }
 
 fn range(values: &[f64], weights: &[f64]) -> [f64; 2] {

@@ -102,7 +102,7 @@ pub(super) fn css(colour: Rgb) -> String {
 }
 
 /// Most bands in one picture: more colours cannot be told apart.
-const MOST_BANDS: f64 = 9.0;
+const MOST_BANDS: f64 = 11.0;
 
 /// Equal bands of values; the first is open below and the last open above.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -115,6 +115,8 @@ pub(super) struct Bands {
     pub(super) step: f64,
     /// Number of bands.
     pub(super) count: usize,
+    /// Not above zero: what is below it counts as negative.
+    pub(super) floor: f64,
 }
 
 /// What a value is shown as.
@@ -122,7 +124,7 @@ pub(super) struct Bands {
 pub(super) enum Class {
     /// A band, from 0.
     Band(usize),
-    /// Below zero.
+    /// Below the floor.
     Negative,
     /// No number.
     Unknown,
@@ -131,7 +133,12 @@ pub(super) enum Class {
 impl Bands {
     /// Bands of a round width, not less than `least`, over most of the values: all but the
     /// hundredth at either end, by weight. Values without a number are left out.
-    pub(super) fn of(scale: Scale, values: impl Iterator<Item = (f64, f64)>, least: f64) -> Self {
+    pub(super) fn of(
+        scale: Scale,
+        values: impl Iterator<Item = (f64, f64)>,
+        least: f64,
+        floor: f64,
+    ) -> Self {
         let mut sorted: Vec<(f64, f64)> =
             values.filter(|(value, weight)| value.is_finite() && *weight > 0.0).collect();
         sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -141,13 +148,14 @@ impl Bands {
         // Values all alike are one band, not the edge between two.
         if high - low < 0.5 * step {
             let low = (0.5 * (low + high) - 0.5 * step).max(0.0);
-            return Self { scale, low, step, count: 1 };
+            return Self { scale, low, step, count: 1, floor };
         }
         loop {
             let first = (low / step + 1e-9).floor();
             let count = (high / step - 1e-9).ceil() - first;
             if count <= MOST_BANDS {
-                return Self { scale, low: first * step, step, count: count.max(1.0) as usize };
+                let count = count.max(1.0) as usize;
+                return Self { scale, low: first * step, step, count, floor };
             }
             step = round_up(1.01 * step);
         }
@@ -157,7 +165,7 @@ impl Bands {
     pub(super) fn class(&self, value: f64) -> Class {
         if !value.is_finite() {
             Class::Unknown
-        } else if value < 0.0 {
+        } else if value < self.floor {
             Class::Negative
         } else {
             let band = ((value - self.low) / self.step).max(0.0) as usize;
@@ -229,10 +237,10 @@ mod tests {
     #[test]
     fn neighbouring_bands_differ_in_grey() {
         for scale in [Scale::Cividis, Scale::Magma] {
-            let bands = Bands { scale, low: 0.0, step: 1.0, count: 9 };
+            let bands = Bands { scale, low: 0.0, step: 1.0, count: 11, floor: 0.0 };
             // Lightness L* (CIE 1976) is what a copier and a colour-blind eye keep.
             let lightness: Vec<f64> =
-                (0..9).map(|k| 116.0 * luminance(bands.colour(k)).cbrt() - 16.0).collect();
+                (0..11).map(|k| 116.0 * luminance(bands.colour(k)).cbrt() - 16.0).collect();
             assert!(lightness.windows(2).all(|w| w[0] - w[1] > 5.0), "{lightness:?}");
         }
     }
@@ -240,30 +248,31 @@ mod tests {
     #[test]
     fn bands_are_round_and_hold_the_values() {
         let values = (0..=200).map(|k| (9.3 + 0.06 * f64::from(k), 1.0));
-        let bands = Bands::of(Scale::Cividis, values, 1.0);
+        let bands = Bands::of(Scale::Cividis, values, 1.0, -0.5);
         assert_eq!((bands.low, bands.step, bands.count), (8.0, 2.0, 7));
+        assert_eq!(bands.class(-0.4), Class::Band(0));
         assert_eq!(bands.class(10.0), Class::Band(1));
         assert_eq!(bands.class(9.99), Class::Band(0));
         assert_eq!(bands.class(40.0), Class::Band(6));
         assert_eq!(bands.class(3.0), Class::Band(0));
-        assert_eq!(bands.class(-0.1), Class::Negative);
+        assert_eq!(bands.class(-0.6), Class::Negative);
         assert_eq!(bands.class(f64::NAN), Class::Unknown);
     }
 
     #[test]
     fn one_value_everywhere_is_one_band_however_it_rounds() {
         let values = [20.0 - 1e-12, 20.0, 20.0 + 1e-12];
-        let bands = Bands::of(Scale::Cividis, values.iter().map(|&v| (v, 1.0)), 1.0);
+        let bands = Bands::of(Scale::Cividis, values.iter().map(|&v| (v, 1.0)), 1.0, 0.0);
         assert!(values.iter().all(|&v| bands.class(v) == Class::Band(0)));
         assert_eq!((bands.count, bands.decimals()), (1, 1));
-        let nothing = Bands::of(Scale::Magma, std::iter::empty(), 1.0);
+        let nothing = Bands::of(Scale::Magma, std::iter::empty(), 1.0, 0.0);
         assert_eq!(nothing.count, 1);
     }
 
     #[test]
     fn a_spike_of_little_area_does_not_take_the_scale() {
         let values = (0..=100).map(|k| (f64::from(k) / 10.0, 1.0)).chain([(500.0, 0.1)]);
-        let bands = Bands::of(Scale::Magma, values, 0.5);
+        let bands = Bands::of(Scale::Magma, values, 0.5, 0.0);
         assert!(bands.edge(bands.count) < 13.0, "{bands:?}");
         assert_eq!(bands.class(500.0), Class::Band(bands.count - 1));
     }

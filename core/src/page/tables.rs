@@ -33,12 +33,12 @@ pub(super) fn pressures(input: &PageInput<'_>) -> Tag {
         return tag("p").text("The design wants no pressures.");
     }
     let top = tag("tr")
-        .child(head("point").with("rowspan", "2"))
+        .child(head("point").class("words").with("rowspan", "2"))
         .child(head("place, mm").class("wide").with("rowspan", "2"))
         .child(group("wanted", "2"))
         .child(group("computed (not measured)", "3"))
         .child(head("warp strain, %").with("rowspan", "2"));
-    let units = ["mmHg", "kPa", "mmHg", "kPa", "off by"].map(head);
+    let units = ["mmHg", "kPa", "mmHg", "kPa", "off by, %"].map(head);
     let rows = all.iter().take(MOST_ROWS).enumerate().flat_map(|(k, p)| pressure(k + 1, p));
     let table = tag("table")
         .child(tag("thead").child(top).child(tag("tr").children(units)))
@@ -80,7 +80,7 @@ fn pressure(number: usize, p: &PressureReport) -> Vec<Tag> {
             } else {
                 ""
             };
-            format!("{sign}{words} %")
+            format!("{sign}{words}")
         },
     );
     let computed = |words: String| cell(words).class("computed");
@@ -110,7 +110,8 @@ fn pressure(number: usize, p: &PressureReport) -> Vec<Tag> {
 
 /// Girths of limb and pattern.
 pub(super) fn girths(pairs: &[GirthPair]) -> Tag {
-    let heads = ["along the limb, mm", "limb, mm", "pattern, mm", "reduction, %"].map(head);
+    let heads = ["limb, mm", "pattern, mm", "reduction, %"].map(head);
+    let first = head("along the limb, mm").class("words");
     let rows = pairs.iter().map(|pair| {
         let open = if pair.limb.closed { "" } else { " (open)" };
         tag("tr")
@@ -120,7 +121,7 @@ pub(super) fn girths(pairs: &[GirthPair]) -> Tag {
             .child(cell(shown_or_dash(pair.reduction().map(|part| 100.0 * part), 1)))
     });
     tag("table")
-        .child(tag("thead").child(tag("tr").children(heads)))
+        .child(tag("thead").child(tag("tr").child(first).children(heads)))
         .child(tag("tbody").children(rows))
 }
 
