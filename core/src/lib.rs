@@ -15,6 +15,7 @@ pub mod field;
 pub mod fit;
 pub mod geometry;
 pub mod mapping;
+pub mod page;
 pub mod parameterize;
 pub mod parameters;
 pub mod pattern;

@@ -23,9 +23,11 @@ fn the_demo_reaches_its_pressures_and_says_where_the_files_are() {
         .filter(|path: &PathBuf| path.join("worn.obj").is_file())
         .collect();
     let out: &Path = named.first().unwrap_or_else(|| panic!("no folder is named in:\n{stdout}"));
-    for name in ["worn.obj", "flat.obj", "pattern.svg", "report.json"] {
+    for name in ["worn.obj", "flat.obj", "pattern.svg", "report.json", "report.html"] {
         assert!(out.join(name).is_file(), "{name} in {}", out.display());
     }
+    let last = work.join(stdout.split_whitespace().last().unwrap());
+    assert_eq!(last, out.join("report.html"), "the demo ends by naming the page");
     let worn = WornObj::parse(&std::fs::read_to_string(out.join("worn.obj")).unwrap());
     assert_eq!((worn.flipped(), worn.overlaps(), worn.wound_twice()), (0, 0, 0));
     let report: serde_json::Value =

@@ -16,7 +16,10 @@ fn the_report_agrees_with_the_worn_surface() {
     let (mesh, design) = limb();
     let bench = Bench::new();
     let _ = bench.flatten(&mesh, &design, &FAST).succeeded();
-    assert_eq!(bench.results(), ["flat.obj", "pattern.svg", "report.json", "worn.obj"]);
+    assert_eq!(
+        bench.results(),
+        ["flat.obj", "pattern.svg", "report.html", "report.json", "worn.obj"]
+    );
     let (worn, report) = (bench.worn(), bench.report());
 
     assert_eq!(number(&report, "/pattern/flipped") as usize, worn.flipped());

@@ -4,6 +4,7 @@ mod cli;
 mod demo;
 mod files;
 mod invariance;
+mod page;
 mod parameters;
 
 use glam::DVec3;

@@ -26,7 +26,7 @@ pub fn command() -> Command {
         .about("Make a sample elbow and a brace for it")
         .after_help(
             "Example:\n  wovenfit demo --out try\n\n\
-             Writes the elbow, its design and the four results into the folder, and prints the \
+             Writes the elbow, its design and the results into the folder, and prints the \
              pressures wanted and computed.",
         )
         .arg(
@@ -62,13 +62,15 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         out.display()
     );
     let mut files = vec![limb, wish];
-    files.extend(flatten::files(&flattening));
+    files.extend(flatten::files(&flattening, &design, &Parameters::default()));
     output::write_together(out, &files)?;
     flatten::warn(&flattening.report);
     if !quiet {
         output::say(&pressure_table(&flattening.report));
         output::say(&flatten::places(out, &files));
         output::say(&command);
+        let page = out.join(flatten::PAGE);
+        output::say(&format!("\nLook at it in a browser:\n  {}\n", page.display()));
     }
     Ok(ExitCode::SUCCESS)
 }

@@ -6,8 +6,10 @@ use std::time::Instant;
 
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 use serde::Serialize;
-use wovenfit_core::design::Design;
+use wovenfit_core::design::{Design, Limits};
 use wovenfit_core::export::{flat_obj, json_text, pattern_svg, worn_obj};
+use wovenfit_core::geometry::measure;
+use wovenfit_core::page::{PageInput, report_html};
 use wovenfit_core::parameters::Parameters;
 use wovenfit_core::report::{PressureReport, Report, pressure_table};
 use wovenfit_core::surface::RawMesh;
@@ -49,6 +51,7 @@ pub fn command() -> Command {
         .after_help(
             "Example:\n  wovenfit flatten scan.obj --design brace.json --out results\n\n\
              Writes into the folder:\n\
+             \x20 report.html   the report as a page: open it in a browser, or print it\n\
              \x20 pattern.svg   the pattern at true size: print it at 100 % and cut\n\
              \x20 report.json   every figure: pressures wanted and computed, girths, warnings\n\
              \x20 worn.obj      the cut surface, with the pattern as texture coordinates in mm\n\
@@ -116,7 +119,7 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let read = start.elapsed();
     let flattening = fit(&mesh, &design, &parameters, quiet)?;
     let fitted = start.elapsed();
-    let files = files(&flattening);
+    let files = files(&flattening, &design, &parameters);
     output::write_together(out, &files)?;
     let total = start.elapsed();
 
@@ -160,14 +163,28 @@ pub fn fit(
     result.map_err(|error| Failure::of(&error))
 }
 
-/// The four files of a pattern.
-pub fn files(flattening: &Flattening) -> Vec<Named> {
-    let Flattening { disk, coordinates, drawing, report, .. } = flattening;
+/// The page that is read first.
+pub const PAGE: &str = "report.html";
+
+/// The files of a pattern.
+pub fn files(flattening: &Flattening, design: &Design, parameters: &Parameters) -> Vec<Named> {
+    let Flattening { disk, coordinates, field, drawing, report } = flattening;
+    let page = PageInput {
+        disk,
+        coordinates,
+        drawing,
+        report,
+        girths: &measure(disk, parameters.girth_step).girths,
+        warp_strain: &field.warp_strain,
+        pressure_kpa: Some(&field.pressure_kpa),
+        limit_kpa: design.limits.max_kpa.unwrap_or(Limits::WARN_KPA),
+    };
     [
         ("worn.obj", worn_obj(disk, coordinates)),
         ("flat.obj", flat_obj(disk, coordinates)),
         ("pattern.svg", pattern_svg(drawing)),
         ("report.json", report.to_json()),
+        (PAGE, report_html(&page)),
     ]
     .map(|(name, text)| (name.to_owned(), text.into_bytes()))
     .into()
