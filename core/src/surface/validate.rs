@@ -22,10 +22,14 @@ use crate::warning::Warning;
 
 /// Coordinates are rounded to multiples of this many mm, so that a limb given in millimetres,
 /// metres and inches is the same to the last bit: conversion leaves differences of about 1e-13 mm
-/// on a limb, and coordinates written with up to nine decimals of a millimetre lie at least
-/// 2e-13 mm from where rounding changes, a few in a million of longer ones do not. A nanometre
-/// is nothing to a limb, and moves the curvature of a mesh with 2 mm edges by 0.001 1/m.
+/// on a limb. A nanometre is nothing to a limb, and moves the curvature of a mesh with 2 mm edges
+/// by 0.001 1/m.
 const GRID: f64 = 1.0 / (1u64 << 20) as f64;
+
+/// From this share of a step on, coordinates are rounded up. Not one half: half of the 32-bit
+/// numbers from 4 to 8 mm lie exactly there and would go either way after a conversion. The golden
+/// ratio's share is as far as can be from binary and from decimal fractions.
+const ROUNDED_UP_FROM: f64 = 0.618_033_988_749_895;
 
 /// A coordinate beyond this many mm (a thousand kilometres) is a fault of the file: squares and
 /// cubes of limb coordinates must stay exact enough.
@@ -126,7 +130,7 @@ pub fn validate(raw: &RawMesh, options: &SurfaceOptions) -> Result<Validated, Su
 fn converted_points(raw: &RawMesh, unit: LengthUnit) -> Vec<DVec3> {
     let scale = unit.millimetres();
     // Adding 0 makes −0 the 0 that it equals.
-    let snap = |x: f64| (x * scale / GRID).round() * GRID + 0.0;
+    let snap = |x: f64| (x * scale / GRID + (1.0 - ROUNDED_UP_FROM)).floor() * GRID + 0.0;
     raw.points.iter().map(|p| DVec3::from_array(p.to_array().map(snap))).collect()
 }
 

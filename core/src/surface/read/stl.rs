@@ -23,29 +23,26 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, ReadError> {
     if looks_like_text(bytes) {
         return read_text(bytes);
     }
-    let (Some(declared), Some(complete)) = (declared, complete) else {
+    if is_text(bytes) {
         return Err(ReadError::NotThisFormat {
             format: Format::Stl,
-            reason: "it begins neither with `solid` nor with the 84 bytes of a binary header"
-                .to_owned(),
+            reason: "it is text that does not begin with `solid`".to_owned(),
         });
+    }
+    let truncated = |detail| Err(ReadError::Truncated { format: Format::Stl, detail });
+    let (Some(declared), Some(complete)) = (declared, complete) else {
+        return truncated(format!(
+            "a binary one begins with {PREAMBLE} bytes of header, and it has {} bytes",
+            bytes.len()
+        ));
     };
     if (bytes.len() as u64) < complete {
-        let present = (bytes.len() - PREAMBLE) / TRIANGLE;
-        return Err(if bytes.iter().take(HEADER).all(|&b| is_text_byte(b)) {
-            ReadError::NotThisFormat {
-                format: Format::Stl,
-                reason: format!(
-                    "it does not begin with `solid`, and as a binary file it would have \
-                     {declared} triangles but holds {present}"
-                ),
-            }
-        } else {
-            ReadError::Truncated {
-                format: Format::Stl,
-                detail: format!("it declares {declared} triangles but holds {present}"),
-            }
-        });
+        return truncated(format!(
+            "for the {declared} triangles that it declares it needs {complete} bytes and has {}, \
+             enough for {}",
+            bytes.len(),
+            (bytes.len() - PREAMBLE) / TRIANGLE
+        ));
     }
     let mut copy = bytes.to_vec();
     // The header is free text; without its `solid` the crate knows the file as binary.
@@ -62,8 +59,11 @@ fn declared_triangles(bytes: &[u8]) -> Option<u64> {
     Some(u64::from(u32::from_le_bytes(count.try_into().ok()?)))
 }
 
-fn is_text_byte(byte: u8) -> bool {
-    byte.is_ascii_graphic() || byte.is_ascii_whitespace()
+/// Whether the bytes are text from end to end: of a binary file, cut short or not, the numbers
+/// after its header are none.
+fn is_text(bytes: &[u8]) -> bool {
+    std::str::from_utf8(bytes)
+        .is_ok_and(|text| text.chars().all(|c| !c.is_control() || c.is_ascii_whitespace()))
 }
 
 /// Whether the bytes are a text STL, broken or whole: `solid`, and no zero byte where a binary
@@ -203,12 +203,16 @@ mod tests {
         short.truncate(150);
         assert_eq!(
             message(&short),
-            "the STL file is truncated: it declares 2 triangles but holds 1; copy or export it \
-             again"
+            "the STL file is truncated: for the 2 triangles that it declares it needs 184 bytes \
+             and has 150, enough for 1; copy or export it again"
         );
+        // A header of plain text does not make a text of it.
+        let mut short = binary(b"made by a scanner", &TWO);
+        short.truncate(150);
+        assert!(message(&short).contains("needs 184 bytes and has 150"), "{}", message(&short));
         // A huge declared number neither allocates nor loops.
         short[HEADER..PREAMBLE].copy_from_slice(&u32::MAX.to_le_bytes());
-        assert!(message(&short).contains("declares 4294967295 triangles but holds 1"));
+        assert!(message(&short).contains("the 4294967295 triangles that it declares"));
         assert_eq!(
             message(TEXT.replace("1.5", "1,5").as_bytes()),
             "line 5 (face 0) of the STL file: `1,5` is not a number; export it again"
