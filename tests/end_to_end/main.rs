@@ -2,9 +2,11 @@
 
 mod cli;
 mod demo;
+mod field;
 mod files;
 mod invariance;
 mod parameters;
+mod reasons;
 
 use glam::DVec3;
 use serde_json::Value;

@@ -480,6 +480,23 @@ mod tests {
     }
 
     #[test]
+    fn a_coarse_and_rough_mesh_never_curves_without_bound() {
+        for edge in [6.0, 7.5, 9.0, 11.0, 14.0] {
+            for seed in 0..8 {
+                let s = noisy(&cylinder(40.0, 120.0, edge), 0.08 * edge, seed);
+                let c = ScaleCurvature::new(&s, 10.0);
+                for v in s.vertex_ids() {
+                    let fit = c.fit_vertex(v);
+                    for (k, _) in fit.shape.principal() {
+                        // 0.1 of an edge over a patch of two edges: 2 · 0.1 e / (2 e)².
+                        assert!(k.abs() < 1.5 / edge, "edge {edge} seed {seed}: {k} {fit:?}");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
     fn noise_of_a_scan_is_averaged_over_the_radius() {
         let s = noisy(&cylinder(45.0, 120.0, 2.0), 0.3, 7);
         // Along the girth and along the limb, in 1/m.

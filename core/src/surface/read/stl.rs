@@ -11,6 +11,10 @@ use glam::DVec3;
 
 use super::{Format, RawMesh, ReadError, excerpt};
 
+/// The words with which lines of text STL begin.
+const KEYWORDS: [&str; 7] =
+    ["solid", "facet", "outer", "vertex", "endloop", "endfacet", "endsolid"];
+
 /// Bytes of the header of binary STL, and with the number of triangles after it.
 const HEADER: usize = 80;
 const PREAMBLE: usize = HEADER + 4;
@@ -102,14 +106,16 @@ fn read_text(bytes: &[u8]) -> Result<RawMesh, ReadError> {
     if ended {
         normal.push_str("endsolid\n");
     }
-    collect(&mut Cursor::new(normal.into_bytes())).map_err(|error| explain(&text, &error))
+    collect(&mut Cursor::new(normal.into_bytes())).map_err(|error| explain(&text, ended, &error))
 }
 
-/// The first line at fault, which `stl_io` does not tell.
-fn explain(text: &str, error: &std::io::Error) -> ReadError {
+/// The first line at fault, which `stl_io` does not tell. What stands last in a file that has not
+/// `ended` may be half a line.
+fn explain(text: &str, ended: bool, error: &std::io::Error) -> ReadError {
     let format = Format::Stl;
     let mut facets = 0usize;
-    for (i, line) in text.lines().enumerate().skip(1) {
+    let whole = text.trim_end().lines().count() - usize::from(!ended);
+    for (i, line) in text.lines().enumerate().take(whole).skip(1) {
         let mut words = line.split_whitespace();
         let numbers = match (words.next(), words.next()) {
             (Some("facet"), _) => {
@@ -127,10 +133,15 @@ fn explain(text: &str, error: &std::io::Error) -> ReadError {
             }
         }
     }
-    if error.kind() == ErrorKind::UnexpectedEof {
-        let detail = format!("it ends within or after face {} without `endsolid`", {
-            facets.saturating_sub(1)
-        });
+    // Of keywords out of order the crate says so by another kind, but for those of half a line.
+    let odd = |line: &str| {
+        let word = line.split_whitespace().next();
+        word.is_some_and(|word| !KEYWORDS.contains(&word))
+    };
+    let sound = !text.lines().take(whole).any(odd);
+    if !ended && (error.kind() == ErrorKind::UnexpectedEof || sound) {
+        let detail =
+            format!("it ends in line {} without `endsolid`", text.trim_end().lines().count());
         return ReadError::Truncated { format, detail };
     }
     ReadError::Malformed {
@@ -223,8 +234,7 @@ mod tests {
         );
         assert_eq!(
             message(TEXT.replace("endsolid wrist\n", "").as_bytes()),
-            "the STL file is truncated: it ends within or after face 0 without `endsolid`; copy \
-             or export it again"
+            "the STL file is truncated: it ends in line 8 without `endsolid`; copy or export it again"
         );
         assert_eq!(
             read_bytes(b"solid nothing\nendsolid\n"),
@@ -240,7 +250,9 @@ mod tests {
             assert!(read_bytes(&bytes[..n]).is_err(), "{n}");
         }
         for n in 0..TEXT.len() - "endsolid wrist\n".len() {
-            assert!(read_bytes(&TEXT.as_bytes()[..n]).is_err(), "{n}");
+            let error = read_bytes(&TEXT.as_bytes()[..n]).unwrap_err();
+            let named = matches!(error, ReadError::Truncated { .. });
+            assert!(n < "solid wrist\n".len() || named, "{n}: {error}");
         }
     }
 }
