@@ -29,6 +29,10 @@ fn a_file_cut_short() {
         let file = bench.write(name, &bytes[..bytes.len() * 7 / 10]);
         refused(&bench, &file, &["truncated"]);
     }
+    // A binary file says how long it should be and how long it is.
+    let whole = write::stl_binary(&sound());
+    let file = bench.write("c.stl", &whole[..1000]);
+    refused(&bench, &file, &["truncated", &whole.len().to_string(), "1000"]);
 }
 
 #[test]

@@ -4,7 +4,7 @@ use glam::DVec3;
 use support::check::congruence_gap;
 use support::cli::Bench;
 use support::fixtures::tube;
-use support::mesh::Triangulation;
+use support::mesh::{Mesh, Triangulation};
 use support::motion::{Motion, design_in_unit};
 use support::write;
 
@@ -44,6 +44,28 @@ fn millimetres_metres_and_inches_give_the_same_pattern() {
         let gap =
             worn.vt.iter().zip(&millimetres.vt).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
         assert!(gap < 1e-6, "{gap} mm between mm and {unit}");
+    }
+}
+
+#[test]
+fn a_scan_of_32_bits_with_picked_points_is_the_same_in_every_unit() {
+    // Half of the 32-bit numbers from 4 to 8 lie midway between millionths of a binary fraction.
+    let (mesh, mut design) = limb();
+    let mesh =
+        Mesh { points: mesh.points.iter().map(|p| p.as_vec3().as_dvec3()).collect(), ..mesh };
+    for (k, v) in [345, 177].into_iter().enumerate() {
+        design["pressures"][k]["at"] = serde_json::json!(mesh.points[v].to_array());
+    }
+    let run = |unit: &str, per_mm: f64| {
+        let bench = Bench::new();
+        let design = design_in_unit(&design, unit, per_mm);
+        let args = [&FAST[..], &["--units", unit]].concat();
+        let _ = bench.flatten(&mesh.scaled(per_mm), &design, &args).succeeded();
+        bench.out("worn.obj")
+    };
+    let millimetres = run("mm", 1.0);
+    for (unit, per_mm) in [("m", 1e-3), ("in", 1.0 / 25.4)] {
+        assert!(run(unit, per_mm) == millimetres, "{unit}");
     }
 }
 

@@ -2,10 +2,12 @@
 
 mod cli;
 mod demo;
+mod field;
 mod files;
 mod invariance;
 mod page;
 mod parameters;
+mod reasons;
 
 use glam::DVec3;
 use serde_json::Value;

@@ -16,6 +16,7 @@ use super::{
     schema as check,
 };
 use crate::export::json_text;
+use crate::surface::in_mm;
 use crate::units::{KPA_PER_MMHG, LengthUnit, kpa_from_mmhg, mmhg_from_kpa};
 
 /// Pressure above which wanting it is an error unless `limits.max_kpa` allows it, in kPa; the same
@@ -276,7 +277,7 @@ fn shown(point: Point) -> String {
 
 /// A point in mm.
 fn position(point: Point, unit: LengthUnit, path: String) -> Result<DVec3, DesignError> {
-    let mm = DVec3::from_array(point) * unit.millimetres();
+    let mm = in_mm(DVec3::from_array(point), unit);
     if mm.abs().max_element() <= FARTHEST {
         return Ok(mm);
     }

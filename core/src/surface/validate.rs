@@ -14,18 +14,12 @@ use super::defect::{Defect, SurfaceError};
 use super::index::VertexId;
 use super::mesh::{Mesh, mean};
 use super::raw::RawMesh;
+use super::rounding::{GRID, in_mm};
 use super::topology::Surface;
 use super::{holes, orientation, weld};
 use crate::design::Facing;
 use crate::units::LengthUnit;
 use crate::warning::Warning;
-
-/// Coordinates are rounded to multiples of this many mm, so that a limb given in millimetres,
-/// metres and inches is the same to the last bit: conversion leaves differences of about 1e-13 mm
-/// on a limb, and coordinates written with up to nine decimals of a millimetre lie at least
-/// 2e-13 mm from where rounding changes, a few in a million of longer ones do not. A nanometre
-/// is nothing to a limb, and moves the curvature of a mesh with 2 mm edges by 0.001 1/m.
-const GRID: f64 = 1.0 / (1u64 << 20) as f64;
 
 /// A coordinate beyond this many mm (a thousand kilometres) is a fault of the file: squares and
 /// cubes of limb coordinates must stay exact enough.
@@ -74,7 +68,7 @@ pub struct Validated {
 /// how faces hang together only when these pass.
 pub fn validate(raw: &RawMesh, options: &SurfaceOptions) -> Result<Validated, SurfaceError> {
     let mut warnings = Vec::new();
-    let points = converted_points(raw, options.unit);
+    let points: Vec<DVec3> = raw.points.iter().map(|&p| in_mm(p, options.unit)).collect();
     check_elements(raw, &points)?;
     let mut mesh = Mesh::split(raw, points)?;
     mesh.report_unused(raw, &mut warnings);
@@ -121,13 +115,6 @@ pub fn validate(raw: &RawMesh, options: &SurfaceOptions) -> Result<Validated, Su
     let triangles = mesh.triangles.iter().map(|t| t.map(VertexId::new)).collect();
     let surface = Surface::new(mesh.points, triangles).map_err(|e| Defect::fault(&e))?;
     Ok(Validated { surface, warnings, source: mesh.source })
-}
-
-fn converted_points(raw: &RawMesh, unit: LengthUnit) -> Vec<DVec3> {
-    let scale = unit.millimetres();
-    // Adding 0 makes −0 the 0 that it equals.
-    let snap = |x: f64| (x * scale / GRID).round() * GRID + 0.0;
-    raw.points.iter().map(|p| DVec3::from_array(p.to_array().map(snap))).collect()
 }
 
 fn check_elements(raw: &RawMesh, points: &[DVec3]) -> Result<(), SurfaceError> {

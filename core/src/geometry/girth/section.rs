@@ -26,7 +26,8 @@ impl Piece {
         }
     }
 
-    /// How far it turns round the line through `centre` along `axis`, in radians.
+    /// How far it turns round the line through `centre` along `axis`, in radians, counter-clockwise
+    /// positive.
     pub(super) fn turning(&self, centre: DVec3, axis: DVec3) -> f64 {
         let n = self.points.len();
         let last = if self.closed { n } else { n - 1 };
@@ -35,8 +36,7 @@ impl Piece {
                 let (a, b) = (self.points[i] - centre, self.points[(i + 1) % n] - centre);
                 a.cross(b).dot(axis).atan2(a.dot(b) - a.dot(axis) * b.dot(axis))
             })
-            .sum::<f64>()
-            .abs()
+            .sum()
     }
 }
 

@@ -56,7 +56,7 @@ pub enum ReadError {
     #[error("the {0} file is empty: export it again")]
     Empty(Format),
     /// The bytes are not in the format.
-    #[error("this is not a {format} file: {reason}; give the file the extension of its format")]
+    #[error("this is no {format} file: {reason}; give the file the extension of its format")]
     NotThisFormat {
         /// The format it should be in.
         format: Format,

@@ -93,19 +93,22 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, ReadError> {
     check_header(&header)?;
     check_sizes(&header, reader.get_ref().len())?;
 
+    let body: &[u8] = reader.get_ref();
+    let fault = |e: &ParseError| cut_short(&header, body).unwrap_or_else(|| explain(e));
+
     let mut raw = RawMesh::default();
     for element in header.elements.values() {
         match element.name.as_str() {
             "vertex" => {
                 let vertices = Parser::<Vertex>::new()
                     .read_payload_for_element(&mut reader, element, &header)
-                    .map_err(|e| explain(&e))?;
+                    .map_err(|e| fault(&e))?;
                 raw.points = vertices.into_iter().map(|v| v.0).collect();
             }
             "face" => {
                 let faces = Parser::<Face>::new()
                     .read_payload_for_element(&mut reader, element, &header)
-                    .map_err(|e| explain(&e))?;
+                    .map_err(|e| fault(&e))?;
                 let points = header.elements.get("vertex").map_or(0, |e| e.count);
                 raw.polygons = faces
                     .into_iter()
@@ -126,7 +129,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, ReadError> {
             _ => {
                 Parser::<Other>::new()
                     .read_payload_for_element(&mut reader, element, &header)
-                    .map_err(|e| explain(&e))?;
+                    .map_err(|e| fault(&e))?;
             }
         }
     }
@@ -182,6 +185,19 @@ fn check_sizes(header: &Header, available: usize) -> Result<(), ReadError> {
         });
     }
     Ok(())
+}
+
+/// What is wrong with a text whose header declares more lines than follow: the last one that does
+/// is probably half a line, and no fault of its own.
+fn cut_short(header: &Header, body: &[u8]) -> Option<ReadError> {
+    let declared: u128 = header.elements.values().map(|e| e.count as u128).sum();
+    let lines = body.split(|&b| b == b'\n').filter(|line| !line.trim_ascii().is_empty()).count();
+    (header.encoding == Encoding::Ascii && (lines as u128) < declared).then(|| {
+        let detail = format!(
+            "its header declares {declared} lines of data and it ends in line {lines} of them"
+        );
+        ReadError::Truncated { format: Format::Ply, detail }
+    })
 }
 
 /// The fewest bytes that an element takes in a binary file: its lists may be empty.

@@ -11,6 +11,10 @@ use glam::DVec3;
 
 use super::{Format, RawMesh, ReadError, excerpt};
 
+/// The words with which lines of text STL begin.
+const KEYWORDS: [&str; 7] =
+    ["solid", "facet", "outer", "vertex", "endloop", "endfacet", "endsolid"];
+
 /// Bytes of the header of binary STL, and with the number of triangles after it.
 const HEADER: usize = 80;
 const PREAMBLE: usize = HEADER + 4;
@@ -23,29 +27,26 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, ReadError> {
     if looks_like_text(bytes) {
         return read_text(bytes);
     }
-    let (Some(declared), Some(complete)) = (declared, complete) else {
+    if is_text(bytes) {
         return Err(ReadError::NotThisFormat {
             format: Format::Stl,
-            reason: "it begins neither with `solid` nor with the 84 bytes of a binary header"
-                .to_owned(),
+            reason: "it is text that does not begin with `solid`".to_owned(),
         });
+    }
+    let truncated = |detail| Err(ReadError::Truncated { format: Format::Stl, detail });
+    let (Some(declared), Some(complete)) = (declared, complete) else {
+        return truncated(format!(
+            "a binary one begins with {PREAMBLE} bytes of header, and it has {} bytes",
+            bytes.len()
+        ));
     };
     if (bytes.len() as u64) < complete {
-        let present = (bytes.len() - PREAMBLE) / TRIANGLE;
-        return Err(if bytes.iter().take(HEADER).all(|&b| is_text_byte(b)) {
-            ReadError::NotThisFormat {
-                format: Format::Stl,
-                reason: format!(
-                    "it does not begin with `solid`, and as a binary file it would have \
-                     {declared} triangles but holds {present}"
-                ),
-            }
-        } else {
-            ReadError::Truncated {
-                format: Format::Stl,
-                detail: format!("it declares {declared} triangles but holds {present}"),
-            }
-        });
+        return truncated(format!(
+            "for the {declared} triangles that it declares it needs {complete} bytes and has {}, \
+             enough for {}",
+            bytes.len(),
+            (bytes.len() - PREAMBLE) / TRIANGLE
+        ));
     }
     let mut copy = bytes.to_vec();
     // The header is free text; without its `solid` the crate knows the file as binary.
@@ -62,8 +63,11 @@ fn declared_triangles(bytes: &[u8]) -> Option<u64> {
     Some(u64::from(u32::from_le_bytes(count.try_into().ok()?)))
 }
 
-fn is_text_byte(byte: u8) -> bool {
-    byte.is_ascii_graphic() || byte.is_ascii_whitespace()
+/// Whether the bytes are text from end to end: of a binary file, cut short or not, the numbers
+/// after its header are none.
+fn is_text(bytes: &[u8]) -> bool {
+    std::str::from_utf8(bytes)
+        .is_ok_and(|text| text.chars().all(|c| !c.is_control() || c.is_ascii_whitespace()))
 }
 
 /// Whether the bytes are a text STL, broken or whole: `solid`, and no zero byte where a binary
@@ -102,14 +106,16 @@ fn read_text(bytes: &[u8]) -> Result<RawMesh, ReadError> {
     if ended {
         normal.push_str("endsolid\n");
     }
-    collect(&mut Cursor::new(normal.into_bytes())).map_err(|error| explain(&text, &error))
+    collect(&mut Cursor::new(normal.into_bytes())).map_err(|error| explain(&text, ended, &error))
 }
 
-/// The first line at fault, which `stl_io` does not tell.
-fn explain(text: &str, error: &std::io::Error) -> ReadError {
+/// The first line at fault, which `stl_io` does not tell. What stands last in a file that has not
+/// `ended` may be half a line.
+fn explain(text: &str, ended: bool, error: &std::io::Error) -> ReadError {
     let format = Format::Stl;
     let mut facets = 0usize;
-    for (i, line) in text.lines().enumerate().skip(1) {
+    let whole = text.trim_end().lines().count() - usize::from(!ended);
+    for (i, line) in text.lines().enumerate().take(whole).skip(1) {
         let mut words = line.split_whitespace();
         let numbers = match (words.next(), words.next()) {
             (Some("facet"), _) => {
@@ -127,10 +133,15 @@ fn explain(text: &str, error: &std::io::Error) -> ReadError {
             }
         }
     }
-    if error.kind() == ErrorKind::UnexpectedEof {
-        let detail = format!("it ends within or after face {} without `endsolid`", {
-            facets.saturating_sub(1)
-        });
+    // Of keywords out of order the crate says so by another kind, but for those of half a line.
+    let odd = |line: &str| {
+        let word = line.split_whitespace().next();
+        word.is_some_and(|word| !KEYWORDS.contains(&word))
+    };
+    let sound = !text.lines().take(whole).any(odd);
+    if !ended && (error.kind() == ErrorKind::UnexpectedEof || sound) {
+        let detail =
+            format!("it ends in line {} without `endsolid`", text.trim_end().lines().count());
         return ReadError::Truncated { format, detail };
     }
     ReadError::Malformed {
@@ -203,12 +214,16 @@ mod tests {
         short.truncate(150);
         assert_eq!(
             message(&short),
-            "the STL file is truncated: it declares 2 triangles but holds 1; copy or export it \
-             again"
+            "the STL file is truncated: for the 2 triangles that it declares it needs 184 bytes \
+             and has 150, enough for 1; copy or export it again"
         );
+        // A header of plain text does not make a text of it.
+        let mut short = binary(b"made by a scanner", &TWO);
+        short.truncate(150);
+        assert!(message(&short).contains("needs 184 bytes and has 150"), "{}", message(&short));
         // A huge declared number neither allocates nor loops.
         short[HEADER..PREAMBLE].copy_from_slice(&u32::MAX.to_le_bytes());
-        assert!(message(&short).contains("declares 4294967295 triangles but holds 1"));
+        assert!(message(&short).contains("the 4294967295 triangles that it declares"));
         assert_eq!(
             message(TEXT.replace("1.5", "1,5").as_bytes()),
             "line 5 (face 0) of the STL file: `1,5` is not a number; export it again"
@@ -219,8 +234,7 @@ mod tests {
         );
         assert_eq!(
             message(TEXT.replace("endsolid wrist\n", "").as_bytes()),
-            "the STL file is truncated: it ends within or after face 0 without `endsolid`; copy \
-             or export it again"
+            "the STL file is truncated: it ends in line 8 without `endsolid`; copy or export it again"
         );
         assert_eq!(
             read_bytes(b"solid nothing\nendsolid\n"),
@@ -236,7 +250,9 @@ mod tests {
             assert!(read_bytes(&bytes[..n]).is_err(), "{n}");
         }
         for n in 0..TEXT.len() - "endsolid wrist\n".len() {
-            assert!(read_bytes(&TEXT.as_bytes()[..n]).is_err(), "{n}");
+            let error = read_bytes(&TEXT.as_bytes()[..n]).unwrap_err();
+            let named = matches!(error, ReadError::Truncated { .. });
+            assert!(n < "solid wrist\n".len() || named, "{n}: {error}");
         }
     }
 }
