@@ -87,12 +87,15 @@ pub(super) const SPECIMEN: Specimen = Specimen {
     name: "ankle",
     limb: &Ankle,
     markers: FRAC_PI_2,
+    // Down the Achilles tendon, round the heel and along the sole, as such braces are sewn: along
+    // the front, the shortest way, the heel would stay a cup that no weave lies flat in.
+    seam: Some(PI),
     // Strain round the limb of 0.1 to 0.2.
     mmhg: &[
-        wish(36.0, 1.3, 12.0),
-        wish(80.0, 1.3, 15.0),
-        wish(190.0, 0.6, 15.0),
-        wish(220.0, 0.6, 15.0),
+        wish(36.0, -1.38, 12.0),
+        wish(70.0, -1.98, 14.0),
+        wish(110.0, 1.75, 14.0),
+        wish(219.0, 1.45, 14.0),
     ],
     configurations: &[],
 };

@@ -76,6 +76,7 @@ pub(super) const SPECIMEN: Specimen = Specimen {
     name: "forearm",
     limb: &Forearm,
     markers: FRAC_PI_2,
+    seam: None,
     // Strain round the limb of 0.1 to 0.2.
     mmhg: &[
         wish(40.0, 1.3, 12.0),

@@ -87,6 +87,7 @@ pub(super) const SPECIMEN: Specimen = Specimen {
     name: "knee",
     limb: &Knee,
     markers: FRAC_PI_2,
+    seam: None,
     // Strain round the limb of 0.1 to 0.2.
     mmhg: &[
         wish(40.0, 1.2, 10.0),
@@ -103,9 +104,9 @@ pub(super) const SPECIMEN: Specimen = Specimen {
             kpa: &[
                 // On neighbouring threads, on both sides of the leg, with similar curvature:
                 // "impossible to realize" in the paper's words, as a thread has one strain.
-                wish(96.0, -FRAC_PI_2, 0.06),
-                wish(200.0, FRAC_PI_2, 3.18),
-                wish(100.0, FRAC_PI_2, 2.29),
+                wish(76.0, -FRAC_PI_2, 0.06),
+                wish(185.0, 1.18, 3.18),
+                wish(76.0, FRAC_PI_2, 2.29),
                 wish(255.0, FRAC_PI_2, 0.26),
             ],
         }],

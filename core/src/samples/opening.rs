@@ -5,53 +5,39 @@
 
 use std::f64::consts::{PI, TAU};
 
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
-use super::tube::Limb;
+use super::shape::Bump;
 
-/// What lies within a cylinder round an axis that leaves the limb.
+/// The top of a bump, taken off.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Opening {
-    /// A point of the axis inside the limb, in mm.
-    pub(super) from: DVec3,
-    /// Unit direction of the axis, outward.
-    pub(super) axis: DVec3,
-    /// Radius of the cylinder, in mm.
-    pub(super) radius: f64,
+    /// The bump, such as the base of the thumb.
+    pub(super) bump: Bump,
+    /// The height on the bump at which the rim runs, in mm.
+    pub(super) height: f64,
 }
 
 impl Opening {
-    /// How far a point lies outside of the cylinder, in mm; negative inside.
-    pub(super) fn outside(&self, point: DVec3) -> f64 {
-        let from = point - self.from;
-        let ahead = from.dot(self.axis);
-        if ahead < 0.0 {
-            // The far side of the limb.
-            return from.length();
-        }
-        (from - ahead * self.axis).length() - self.radius
+    /// Whether a place (station, angle) lies in the opening.
+    fn holds(&self, place: DVec2) -> bool {
+        self.bump.at(place.x, place.y) > self.height
     }
 
     /// Takes the opening out of a mesh whose vertices are given by (station, angle).
-    pub(super) fn cut(
-        &self,
-        limb: &dyn Limb,
-        places: &mut Vec<DVec2>,
-        faces: &mut Vec<[usize; 3]>,
-    ) {
-        let outside: Vec<f64> =
-            places.iter().map(|place| self.outside(limb.point(place.x, place.y))).collect();
+    pub(super) fn cut(&self, places: &mut Vec<DVec2>, faces: &mut Vec<[usize; 3]>) {
+        let inside: Vec<bool> = places.iter().map(|&place| self.holds(place)).collect();
         // For every vertex the nearest place where one of its edges meets the rim, if that is in
         // its own half of the edge.
         let mut nearest: Vec<Option<(f64, DVec2)>> = vec![None; places.len()];
         for face in faces.iter() {
             for k in 0..3 {
                 let [a, b] = [face[k], face[(k + 1) % 3]];
-                if (outside[a] < 0.0) == (outside[b] < 0.0) {
+                if inside[a] == inside[b] {
                     continue;
                 }
                 let step = shortest(places[b] - places[a]);
-                let share = self.meets(limb, places[a], step, outside[a] < 0.0);
+                let share = self.meets(places[a], step);
                 let (vertex, share, place) = if share < 0.5 {
                     (a, share, places[a] + share * step)
                 } else {
@@ -67,20 +53,21 @@ impl Opening {
                 *place = *onto;
             }
         }
-        faces.retain(|face| {
-            face.iter().any(|&v| nearest[v].is_none() && outside[v] >= 0.0)
-        });
+        faces.retain(|face| face.iter().any(|&v| nearest[v].is_none() && !inside[v]));
         drop_unused(places, faces);
     }
 
     /// The share of an edge at which it meets the rim, by bisection.
-    fn meets(&self, limb: &dyn Limb, from: DVec2, step: DVec2, starts_inside: bool) -> f64 {
+    fn meets(&self, from: DVec2, step: DVec2) -> f64 {
+        let starts_inside = self.holds(from);
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..50 {
             let middle = f64::midpoint(low, high);
-            let place = from + middle * step;
-            let inside = self.outside(limb.point(place.x, place.y)) < 0.0;
-            if inside == starts_inside { low = middle } else { high = middle }
+            if self.holds(from + middle * step) == starts_inside {
+                low = middle;
+            } else {
+                high = middle;
+            }
         }
         f64::midpoint(low, high)
     }

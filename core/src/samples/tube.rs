@@ -126,9 +126,10 @@ pub(super) fn triangulate(
     for row in 0..=rows {
         let station = limb.length() * row as f64 / rows as f64;
         let turn = if row % 2 == 1 { PI / columns as f64 } else { 0.0 };
-        places.extend((0..columns).map(|column| {
-            DVec2::new(station, TAU * column as f64 / columns as f64 + turn)
-        }));
+        places.extend(
+            (0..columns)
+                .map(|column| DVec2::new(station, TAU * column as f64 / columns as f64 + turn)),
+        );
     }
     let mut faces = Vec::with_capacity(2 * rows * columns);
     for row in 0..rows {
@@ -144,7 +145,7 @@ pub(super) fn triangulate(
         }
     }
     if let Some(opening) = opening {
-        opening.cut(limb, &mut places, &mut faces);
+        opening.cut(&mut places, &mut faces);
     }
     let mut noise = Noise::new(SEED);
     let point = |place: &DVec2| {

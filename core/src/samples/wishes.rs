@@ -1,5 +1,7 @@
 //! What comes with a limb: a reachable design for demonstrations, and the paper's examples.
 
+use glam::DVec3;
+
 use super::tube::Limb;
 use crate::design::{Design, Fabric, Piece, PressureModel, WantedPressure};
 use crate::units::kpa_from_mmhg;
@@ -12,6 +14,9 @@ pub(super) struct Specimen {
     pub(super) limb: &'static dyn Limb,
     /// Where the orientation markers stand round the limb, in radians.
     pub(super) markers: f64,
+    /// Where the limb is to be cut open, as the angle of a seam from end to end, in radians;
+    /// `None` leaves it to be found.
+    pub(super) seam: Option<f64>,
     /// A design that the default fabric reaches by Laplace's law, in mmHg.
     pub(super) mmhg: &'static [Wish],
     /// The paper's examples on this limb.
@@ -100,18 +105,27 @@ impl Specimen {
         Design {
             fabric: Fabric { name, warp, weft, diagonal, ..Fabric::default() },
             orientation: Some(markers.map(|station| self.limb.point(station, self.markers))),
+            seams: self.seam.iter().map(|&angle| self.seam_at(angle)).collect(),
             piece: Piece { name: format!("{} brace", self.name), ..Piece::default() },
             ..Design::default()
         }
     }
 
+    /// The polyline from end to end at an angle.
+    fn seam_at(&self, angle: f64) -> Vec<DVec3> {
+        let pieces = (self.limb.length() / SEAM_STEP).ceil();
+        (0..=pieces as usize)
+            .map(|k| self.limb.point(self.limb.length() * k as f64 / pieces, angle))
+            .collect()
+    }
+
     fn wanted(&self, wish: &Wish, kpa: impl Fn(f64) -> f64) -> WantedPressure {
-        WantedPressure {
-            at: self.limb.point(wish.station, wish.angle),
-            kpa: kpa(wish.pressure),
-        }
+        WantedPressure { at: self.limb.point(wish.station, wish.angle), kpa: kpa(wish.pressure) }
     }
 }
 
 /// Distance of the orientation markers from the ends along the centre line, in mm.
 const MARKER: f64 = 12.0;
+
+/// Distance between the points of a seam along the centre line, in mm: as one would click them.
+const SEAM_STEP: f64 = 15.0;

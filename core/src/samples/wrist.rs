@@ -60,9 +60,11 @@ const BUMPS: [Bump; 8] = [
 
 /// The thumb's base, as far as a brace covers it.
 const THUMB: Bump =
-    Bump { height: 22.0, station: 140.0, long: 14.0, angle: FRAC_PI_2 - 0.22, wide: 0.55 };
-/// How far the thumb leans toward the fingers: along the limb, per height.
-const LEAN: f64 = 0.5;
+    Bump { height: 21.0, station: 136.0, long: 14.5, angle: FRAC_PI_2 - 0.15, wide: 0.8 };
+/// Where the thumb points, per height: to the palm, to the outer side, to the fingers. Its skin
+/// moves this way rather than along the hand's normal, which would fan out round the hand's edge
+/// and make a mushroom of it.
+const THUMB_AXIS: DVec3 = DVec3::new(0.25, 0.95, 0.65);
 
 impl Limb for Wrist {
     fn length(&self) -> f64 {
@@ -78,15 +80,13 @@ impl Limb for Wrist {
     }
 
     fn section(&self, station: f64, angle: f64) -> DVec3 {
-        let thumb = THUMB.at(station, angle);
-        let relief = relief(&BUMPS, station, angle) + thumb;
-        SECTIONS.at(station, angle, relief).extend(LEAN * thumb)
+        let hand = SECTIONS.at(station, angle, relief(&BUMPS, station, angle)).extend(0.0);
+        hand + THUMB.at(station, angle) * THUMB_AXIS
     }
 
     fn opening(&self) -> Option<Opening> {
-        let tip = self.point(THUMB.station, THUMB.angle);
-        let axis = self.normal(THUMB.station, THUMB.angle);
-        Some(Opening { from: tip - 30.0 * axis, axis, radius: 11.0 })
+        // Where the thumb leaves the brace: some 70 mm round.
+        Some(Opening { bump: THUMB, height: 0.72 * THUMB.height })
     }
 }
 
@@ -95,12 +95,13 @@ pub(super) const SPECIMEN: Specimen = Specimen {
     name: "wrist",
     limb: &Wrist,
     markers: FRAC_PI_2,
+    seam: None,
     // Strain round the limb of 0.1 to 0.2.
     mmhg: &[
-        wish(35.0, FRAC_PI_2, 14.0),
-        wish(75.0, FRAC_PI_2, 18.0),
-        wish(110.0, -1.2, 18.0),
-        wish(145.0, -1.2, 18.0),
+        wish(36.0, FRAC_PI_2, 14.0),
+        wish(68.0, FRAC_PI_2, 17.0),
+        wish(104.0, -1.96, 16.0),
+        wish(168.0, -0.78, 15.0),
     ],
     configurations: &[Configuration {
         name: "paper",
@@ -108,11 +109,7 @@ pub(super) const SPECIMEN: Specimen = Specimen {
         weaves: &[Weave {
             name: "stiff round the limb",
             stiffness: [0.75, 0.5, 0.05],
-            kpa: &[
-                wish(40.0, FRAC_PI_2, 0.5),
-                wish(112.0, 1.1, 4.0),
-                wish(165.0, -1.2, 0.5),
-            ],
+            kpa: &[wish(40.0, FRAC_PI_2, 0.5), wish(112.0, 1.0, 6.0), wish(165.0, -1.2, 0.5)],
         }],
     }],
 };
