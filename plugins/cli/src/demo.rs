@@ -7,6 +7,7 @@ use clap::{Arg, ArgMatches, Command, value_parser};
 use wovenfit_core::design;
 use wovenfit_core::parameters::Parameters;
 use wovenfit_core::report::pressure_table;
+use wovenfit_core::samples::SampleOptions;
 use wovenfit_core::surface::{self, Format};
 
 use crate::exit::Failure;
@@ -15,6 +16,7 @@ use crate::{flatten, output, sample};
 /// The command's name.
 pub const NAME: &str = "demo";
 
+/// The limb unless another is named.
 const LIMB: &str = "elbow";
 
 /// Triangles of 3 to 4 mm: finer than the woven model, and quickly read.
@@ -23,12 +25,13 @@ const TRIANGLES: usize = 10_000;
 /// The command's description for the parser.
 pub fn command() -> Command {
     Command::new(NAME)
-        .about("Make a sample elbow and a brace for it")
+        .about("Make a sample limb and a brace for it")
         .after_help(
-            "Example:\n  wovenfit demo --out try\n\n\
-             Writes the elbow, its design and the results into the folder, and prints the \
+            "Examples:\n  wovenfit demo\n  wovenfit demo knee --out try\n\n\
+             Writes the limb, its design and the results into the folder, and prints the \
              pressures wanted and computed.",
         )
+        .arg(sample::limb().default_value(LIMB))
         .arg(
             Arg::new("out")
                 .long("out")
@@ -48,7 +51,9 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let quiet = matches.get_flag("quiet");
     output::ready(out)?;
 
-    let [limb, wish] = sample::files(LIMB, TRIANGLES, 0.0, LIMB)?;
+    let name = matches.get_one::<String>("name").map_or(LIMB, String::as_str);
+    let options = SampleOptions { triangles: TRIANGLES, ..SampleOptions::default() };
+    let [limb, wish] = sample::files(name, &options, name).map_err(|e| Failure::of(&e))?;
     // From the bytes that are written, so that `flatten` on these files gives the same result.
     let mesh = surface::read(&limb.1, Format::Obj).map_err(|e| Failure::of(&e))?;
     let text = String::from_utf8_lossy(&wish.1);
