@@ -283,9 +283,10 @@ parameters! {
          and weft springs. On a doubly curved limb it is never reached and the plateau decides.";
     plateau: f64 = 0.01, "per 1000 steps", Kind::Number(1e-5..=1.0),
         "Converged when the energy falls more slowly than this fraction.",
-        "Measured over the last thousand steps of the finest level. 0.001 is a strict plateau, \
+        "Measured over a thousand steps at a spacing of 5 mm, and as many more or fewer as other \
+         spacings and stiffer wefts need for the same change. 0.001 is a strict plateau, \
          some ten times longer for a difference of the order of 1 % of the energy.";
-    max_iterations: u64 = 20_000, "", Kind::Integer(1..=10_000_000),
+    max_iterations: u64 = 100_000, "", Kind::Integer(1..=10_000_000),
         "Most diffusion steps, all levels together.",
         "A run that hits it says `not converged` in the table, the report and the warnings.";
     row_spacing: f64 = 10.0, "mm", Kind::Number(0.0..=100.0),

@@ -55,8 +55,7 @@ impl Stopped {
 }
 
 /// Whether, over the last `window` steps of one level, the energy density has changed by no more
-/// than the fraction `plateau` per thousand steps of the finest level, of which `window` stands for
-/// one thousand.
+/// than the fraction `plateau`.
 #[must_use]
 pub fn at_plateau(level: &[HistoryEntry], window: u64, plateau: f64) -> bool {
     let Some(last) = level.last() else { return false };

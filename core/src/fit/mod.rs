@@ -83,8 +83,17 @@ pub enum FitError {
 /// A coarse level is of use only with at least this many cells.
 const FEWEST_CELLS: usize = 30;
 
-/// Steps over which the plateau is measured on the finest level.
-const PLATEAU_WINDOW: u64 = 1000;
+/// Steps over which the plateau is measured at a spacing of 5 mm in a fabric no stiffer along weft
+/// than along warp.
+const PLATEAU_WINDOW: f64 = 1000.0;
+
+/// Steps in which a level changes as much as 5 mm does in a thousand: a disturbance diffuses over a
+/// length in a number of steps that goes with the square of the number of nodes, and λ is set by the
+/// stiffest thread, so that weaker warp threads move more slowly.
+fn window(spacing: f64, fabric: &Fabric) -> u64 {
+    let stiffest = fabric.warp.max(fabric.weft).max(fabric.diagonal);
+    (PLATEAU_WINDOW * (5.0 / spacing).powi(2) * stiffest / fabric.warp).ceil() as u64
+}
 
 /// After so many windows a coarse level has given what it can, and threads that have not settled
 /// will not.
@@ -145,8 +154,7 @@ impl Run<'_> {
     fn settle(&mut self, mut model: WovenModel, level: u64) -> Result<Fit, FitError> {
         let FitInput { disk, fabric, parameters, .. } = *self.input;
         let lambda = step_length(parameters.damping, fabric);
-        // A disturbance crosses a level of half as many threads in a quarter of the steps.
-        let window = (PLATEAU_WINDOW >> (2 * level)).max(parameters.steps_per_pass);
+        let window = window(model.spacing(), fabric).max(parameters.steps_per_pass);
         let (begin, first) = (self.history.len(), self.iterations);
         let mut departures = Departures::default();
         let mut targets = self.targets(&model)?;
@@ -209,7 +217,7 @@ impl Run<'_> {
             self.input.fabric,
             self.input.pressure_model,
             self.input.parameters.row_spacing,
-            self.corrections.strains(),
+            self.input.parameters.correct_pressures.then(|| self.corrections.strains()),
         )
     }
 

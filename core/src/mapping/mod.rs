@@ -90,7 +90,13 @@ impl<'a> Mapping<'a> {
     pub fn vertices(&self) -> Result<Vec<DVec2>, MappingError> {
         let closest = self.closest_nodes()?;
         let places = self.surface.points();
-        closest.par_iter().zip(places).map(|(&slot, &place)| self.seen_from(slot, place)).collect()
+        let seen: Vec<Result<DVec2, MappingError>> = closest
+            .par_iter()
+            .zip(places)
+            .map(|(&slot, &place)| self.seen_from(slot, place))
+            .collect();
+        // One after the other, so that of several errors the same one is reported every time.
+        seen.into_iter().collect()
     }
 
     /// The closest node of every vertex, by slot: from vertex to vertex along the surface, each

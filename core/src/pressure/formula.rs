@@ -88,33 +88,39 @@ pub fn pressing_curvature(model: PressureModel, curvature: &LocalCurvature) -> f
     }
 }
 
+/// A wanted pressure on a thread, with what decides the strain that it needs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wish {
+    /// Wanted normal pressure, in kPa.
+    pub kpa: f64,
+    /// Curvature there.
+    pub curvature: LocalCurvature,
+    /// Strain of the weft thread there, as far as it is known.
+    pub weft_strain: f64,
+}
+
 /// The warp strain with which one thread best gives the wanted pressures at its points, Eq. (3):
-/// least squares over pairs of a pressure in kPa and the curvature there. Not limited to what the
-/// fabric bears. `None` where no point is curved enough to be pressed upon.
+/// least squares. Not limited to what the fabric bears. `None` where no point is curved enough to be pressed upon.
 ///
-/// `Laplace`: ε_warp = Σ κ_warp (P − κ_weft T_weft) / Σ κ_warp² k_warp, with weft at its wanted
-/// strain and T_weft = k_weft ε⁺_weft / λ_warp; `Paper`: Eq. (3) as printed.
+/// `Laplace`: ε_warp = Σ κ_warp (P − κ_weft T_weft) / Σ κ_warp² k_warp, with
+/// T_weft = k_weft ε⁺_weft / λ_warp; `Paper`: Eq. (3) as printed.
 #[must_use]
-pub fn warp_strain(
-    model: PressureModel,
-    fabric: &Fabric,
-    points: &[(f64, LocalCurvature)],
-) -> Option<f64> {
+pub fn warp_strain(model: PressureModel, fabric: &Fabric, points: &[Wish]) -> Option<f64> {
     let pressed: Vec<_> = points
         .iter()
-        .filter(|(_, curvature)| pressing_curvature(model, curvature) > FLAT_CURVATURE)
+        .filter(|wish| pressing_curvature(model, &wish.curvature) > FLAT_CURVATURE)
         .collect();
     if pressed.is_empty() {
         return None;
     }
-    let weft = fabric.weft_strain;
     let mut strain = 0.0;
     // Under Laplace's law a stretched weft thread loses width as the warp stretches, so the
-    // equation is solved again with the last strain; with a wanted weft strain of zero the first
+    // equation is solved again with the last strain; with a weft strain of zero the first
     // round is exact, otherwise the change shrinks by about k_weft ε_weft / k_warp a round.
     for _ in 0..50 {
         let (mut numerator, mut denominator) = (0.0, 0.0);
-        for (kpa, curvature) in &pressed {
+        for Wish { kpa, curvature, weft_strain: weft } in &pressed {
+            let weft = *weft;
             let (per_strain, from_weft) = match model {
                 PressureModel::Laplace => (
                     fabric.warp * curvature.warp / (1.0 + weft),
@@ -146,6 +152,10 @@ mod tests {
         LocalCurvature { warp: 1.0 / radius, weft: 0.0, mean: 0.5 / radius }
     }
 
+    fn wish(kpa: f64, curvature: LocalCurvature) -> Wish {
+        Wish { kpa, curvature, weft_strain: 0.0 }
+    }
+
     fn fabric(warp: f64, weft: f64) -> Fabric {
         Fabric { warp, weft, ..Fabric::default() }
     }
@@ -174,7 +184,7 @@ mod tests {
     fn the_papers_knee_needs_the_top_of_its_colour_bar() {
         // 3.18 at a radius of 0.06 m with k = 0.5: 3.18 / (π 8.333 0.5) = 0.2429.
         let strain =
-            warp_strain(PressureModel::Paper, &fabric(0.5, 5.0), &[(3.18, cylinder(60.0))]);
+            warp_strain(PressureModel::Paper, &fabric(0.5, 5.0), &[wish(3.18, cylinder(60.0))]);
         assert!((strain.unwrap() - 0.24294).abs() < 1e-5);
     }
 
@@ -182,7 +192,7 @@ mod tests {
     fn equation_3_by_hand_for_two_points_on_one_thread() {
         // Laplace, k = 0.5 N/mm: κ = 0.02 wants 2 kPa, κ = 0.01 wants 2 kPa.
         // ε = (0.02·0.002 + 0.01·0.002) / (0.5 (0.0004 + 0.0001)) = 6e-5 / 2.5e-4 = 0.24.
-        let points = [(2.0, cylinder(50.0)), (2.0, cylinder(100.0))];
+        let points = [wish(2.0, cylinder(50.0)), wish(2.0, cylinder(100.0))];
         let strain = warp_strain(PressureModel::Laplace, &fabric(0.5, 0.5), &points).unwrap();
         assert!((strain - 0.24).abs() < 1e-12);
         // Paper: κ_H is half of it and s π stands in front: 0.24 · 2 / π.
@@ -194,8 +204,9 @@ mod tests {
     fn what_the_inverse_gives_the_formula_gives_back_with_weft_tension_too() {
         let curvature = LocalCurvature { warp: 0.02, weft: 0.008, mean: 0.014 };
         for model in [PressureModel::Laplace, PressureModel::Paper] {
-            let fabric = Fabric { weft_strain: 0.04, ..fabric(0.6, 1.5) };
-            let strain = warp_strain(model, &fabric, &[(2.5, curvature)]).unwrap();
+            let fabric = fabric(0.6, 1.5);
+            let wish = Wish { weft_strain: 0.04, ..wish(2.5, curvature) };
+            let strain = warp_strain(model, &fabric, &[wish]).unwrap();
             let stretch = Stretch::without_shear(strain, 0.04);
             let kpa = pressure_kpa(model, &fabric, &curvature, &stretch);
             assert!((kpa - 2.5).abs() < 1e-9, "{model:?} {kpa}");
@@ -207,7 +218,7 @@ mod tests {
         let hollow = LocalCurvature { warp: -0.01, weft: 0.02, mean: 0.005 };
         let flat = LocalCurvature { warp: 1e-9, weft: 0.02, mean: 0.01 };
         for curvature in [hollow, flat] {
-            let points = [(1.0, curvature)];
+            let points = [wish(1.0, curvature)];
             assert_eq!(warp_strain(PressureModel::Laplace, &fabric(0.5, 0.5), &points), None);
             assert!(
                 warp_strain(PressureModel::Paper, &fabric(0.5, 0.5), &points).is_some(),

@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::formula::{
-    FLAT_CURVATURE, LocalCurvature, Stretch, pressing_curvature, pressure_kpa, warp_strain,
+    FLAT_CURVATURE, LocalCurvature, Stretch, Wish, pressing_curvature, pressure_kpa, warp_strain,
 };
 use super::reached::{Along, patch, thread_strain};
 use super::{Annotation, Targets};
@@ -40,6 +40,25 @@ pub enum Reason {
         /// Distance to the edge, in mm.
         distance: f64,
     },
+    /// Points on neighbouring threads want another strain, and one strain cannot go over into the
+    /// other in so short a way.
+    NeighbourConflict {
+        /// Those points, by number from 0.
+        others: Vec<usize>,
+    },
+    /// The thread has its strain; stretched weft threads press as well.
+    WeftTension {
+        /// Strain of the weft thread.
+        strain: f64,
+        /// Pressure from it, in kPa.
+        kpa: f64,
+    },
+    /// The thread has its strain; the curvature at the point is not that of the thread of the model
+    /// nearest to it.
+    BetweenThreads {
+        /// Distance of the threads, in mm.
+        spacing: f64,
+    },
     /// The shape of the limb does not let this thread take its strain.
     Shape {
         /// Wanted strain of the thread.
@@ -59,6 +78,9 @@ impl Reason {
             Self::ThreadConflict { .. } => "thread_conflict",
             Self::NotConverged => "not_converged",
             Self::FreeEdge { .. } => "free_edge",
+            Self::NeighbourConflict { .. } => "neighbour_conflict",
+            Self::WeftTension { .. } => "weft_tension",
+            Self::BetweenThreads { .. } => "between_threads",
             Self::Shape { .. } => "shape",
         }
     }
@@ -76,14 +98,24 @@ impl Reason {
                 "it needs a strain of {needed:.2}, and this fabric bears {limit:.2}: take a \
                  stiffer fabric or ask less"
             ),
-            Self::ThreadConflict { others } => {
-                let names: Vec<String> = others.iter().map(|k| (k + 1).to_string()).collect();
-                format!(
-                    "point {} on the same thread wants another strain: a thread has one strain \
-                     all round the limb",
-                    names.join(" and ")
-                )
-            }
+            Self::ThreadConflict { others } => format!(
+                "{} on the same thread: a thread has one strain all round the limb",
+                wants_another(others)
+            ),
+            Self::NeighbourConflict { others } => format!(
+                "{} too near to this thread: the fabric cannot change its strain in so short a \
+                 way; ask for values closer to each other, or move the points apart",
+                wants_another(others)
+            ),
+            Self::WeftTension { strain, kpa } => format!(
+                "the weft threads are stretched by {:.1} % here and press with {kpa:.2} kPa of \
+                 their own: ask less, or take a fabric softer along the limb",
+                100.0 * strain
+            ),
+            Self::BetweenThreads { spacing } => format!(
+                "the thread has the strain asked of it, but the limb's curvature changes from one \
+                 thread of the model to the next here: use a spacing below {spacing} mm"
+            ),
             Self::NotConverged => "the fit was stopped before it came to rest: allow more \
                                    iterations"
                 .to_owned(),
@@ -96,6 +128,15 @@ impl Reason {
                  of {wanted:.3}; a seam or dart nearby would free it"
             ),
         }
+    }
+}
+
+/// "point 2 wants another strain", "points 2 and 5 want another strain".
+fn wants_another(others: &[usize]) -> String {
+    let names: Vec<String> = others.iter().map(|k| (k + 1).to_string()).collect();
+    match names.as_slice() {
+        [one] => format!("point {one} wants another strain"),
+        many => format!("points {} want another strain", many.join(" and ")),
     }
 }
 
@@ -120,6 +161,12 @@ pub struct Judgement {
     /// Why it was missed; `None` where it was met.
     pub reason: Option<Reason>,
 }
+
+/// A thread has its strain within this fraction.
+const SAME_STRAIN: f64 = 0.03;
+
+/// Over this distance along the limb, in mm, the fabric's shear makes neighbouring threads alike.
+const NEIGHBOURHOOD: f64 = 60.0;
 
 /// A pressure is never called missed by less than this, in kPa: below what a sensor under a brace
 /// resolves (0.5 mmHg is 0.07 kPa).
@@ -168,7 +215,7 @@ fn judge_one(
     let place = annotation.point.interpolate(brace.disk, brace.coordinates);
     let round =
         patch(brace.disk, brace.coordinates, &annotation.point, parameters.curvature_radius);
-    let curvature = round.map_or(brace.targets.curvatures[k], |patch| LocalCurvature {
+    let curvature = round.map_or(brace.targets.wishes[k].curvature, |patch| LocalCurvature {
         warp: annotation.shape.normal_curvature(patch.warp),
         weft: annotation.shape.normal_curvature(patch.weft),
         mean: annotation.shape.mean(),
@@ -187,7 +234,17 @@ fn judge_one(
     let got_local_kpa = pressure_kpa(pressure_model, fabric, &curvature, &local);
     let most = (parameters.miss_tolerance * annotation.kpa).max(LEAST_MISS_KPA);
     let reason = ((got_kpa - annotation.kpa).abs() > most).then(|| {
-        why(brace, annotations, k, fabric, pressure_model, parameters, &curvature, warp_reached)
+        why(
+            brace,
+            annotations,
+            k,
+            fabric,
+            pressure_model,
+            parameters,
+            &curvature,
+            warp_reached,
+            weft_reached,
+        )
     });
     Judgement {
         got_kpa,
@@ -225,32 +282,32 @@ fn why(
     parameters: &Parameters,
     curvature: &LocalCurvature,
     reached: f64,
+    weft: f64,
 ) -> Reason {
     let pressing = pressing_curvature(pressure_model, curvature);
     if pressing <= FLAT_CURVATURE {
         return Reason::FlatOrHollow { curvature: pressing };
     }
-    let needs = |k: usize, curvature: LocalCurvature| {
-        warp_strain(pressure_model, fabric, &[(annotations[k].kpa, curvature)])
-    };
-    let needed = needs(k, *curvature).unwrap_or(0.0);
+    let targets = brace.targets;
+    let needs = |wish: Wish| warp_strain(pressure_model, fabric, &[wish]);
+    let needed = needs(Wish { curvature: *curvature, ..targets.wishes[k] }).unwrap_or(0.0);
     if needed > fabric.max_strain {
         return Reason::OverStrain { needed, limit: fabric.max_strain };
     }
-    let targets = brace.targets;
-    let row = targets.nodes[k].i;
     // Below a hundredth of strain two wishes are one.
     let differs = |a: f64, b: f64| (a - b).abs() > (parameters.miss_tolerance * a).max(0.01);
-    let others: Vec<usize> = (0..annotations.len())
-        .filter(|&other| other != k)
-        .filter(|&other| {
-            let apart = f64::from((targets.nodes[other].i - row).abs()) * brace.model.spacing();
-            apart == 0.0 || apart < parameters.row_spacing
-        })
-        .filter(|&other| {
-            needs(other, targets.curvatures[other]).is_some_and(|strain| differs(needed, strain))
-        })
-        .collect();
+    let row = targets.nodes[k].i;
+    let apart =
+        |other: usize| f64::from((targets.nodes[other].i - row).abs()) * brace.model.spacing();
+    let wanting_else = |farthest: f64, pulls: &dyn Fn(f64) -> bool| -> Vec<usize> {
+        (0..annotations.len())
+            .filter(|&other| other != k && apart(other) <= farthest)
+            .filter(|&other| {
+                needs(targets.wishes[other])
+                    .is_some_and(|strain| differs(needed, strain) && pulls(strain - needed))
+            })
+            .collect()
+    };
     // What the strain function gave the thread, correction aside.
     let given = targets
         .threads
@@ -258,21 +315,35 @@ fn why(
         .find(|thread| thread.annotations.contains(&k))
         .and_then(|thread| Some(thread.wanted? + thread.fitted - thread.asked?))
         .unwrap_or(0.0);
+    let others = wanting_else(parameters.row_spacing, &|_| true);
     if !others.is_empty() && differs(needed, given) {
         return Reason::ThreadConflict { others };
     }
     if !brace.converged {
         return Reason::NotConverged;
     }
-    let distance = distance_to_edges(brace, annotation_place(brace, &annotations[k]));
+    let distance = distance_to_edges(brace, annotations[k].point.position(brace.disk));
     if distance < parameters.curvature_radius {
         return Reason::FreeEdge { distance };
     }
+    let off = reached - given;
+    if off.abs() <= SAME_STRAIN * given {
+        let stretch = Stretch::without_shear(reached, weft);
+        let with = pressure_kpa(pressure_model, fabric, curvature, &stretch);
+        let slack = Stretch { weft: 0.0, ..stretch };
+        let from_weft = with - pressure_kpa(pressure_model, fabric, curvature, &slack);
+        let missed = with - annotations[k].kpa;
+        return if from_weft * missed > 0.0 && from_weft.abs() > 0.5 * missed.abs() {
+            Reason::WeftTension { strain: weft, kpa: from_weft }
+        } else {
+            Reason::BetweenThreads { spacing: brace.model.spacing() }
+        };
+    }
+    let others = wanting_else(NEIGHBOURHOOD, &|toward| toward * off > 0.0);
+    if !others.is_empty() {
+        return Reason::NeighbourConflict { others };
+    }
     Reason::Shape { wanted: given, reached }
-}
-
-fn annotation_place(brace: &Brace<'_>, annotation: &Annotation) -> DVec3 {
-    annotation.point.position(brace.disk)
 }
 
 /// Distance in space from a place to the nearest free edge, in mm.

@@ -77,16 +77,8 @@ fn judged(wishes: &[Wish], reached: f64, converged: bool) -> Vec<Judgement> {
         .collect();
     let fabric = Fabric::default();
     let model_name = PressureModel::Laplace;
-    let targets = target_strains(
-        &disk,
-        &model,
-        &annotations,
-        &fabric,
-        model_name,
-        10.0,
-        &vec![0.0; wishes.len()],
-    )
-    .unwrap();
+    let targets =
+        target_strains(&disk, &model, &annotations, &fabric, model_name, 10.0, None).unwrap();
     let free_edges: Vec<HalfEdgeId> = disk
         .boundary_loops()
         .iter()

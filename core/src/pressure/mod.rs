@@ -9,7 +9,7 @@ mod strain_function;
 mod targets;
 
 pub use formula::{
-    FLAT_CURVATURE, LocalCurvature, Stretch, pressing_curvature, pressure_kpa, warp_strain,
+    FLAT_CURVATURE, LocalCurvature, Stretch, Wish, pressing_curvature, pressure_kpa, warp_strain,
 };
 pub use judgement::{Brace, Judgement, Reason, judge};
 pub use reached::{Along, Patch, TriangleStretch, patch, thread_strain, triangle_stretch};

@@ -76,15 +76,15 @@ impl StrainFunction {
     /// The function through (or near) the data, which must be sorted by t without repetition and lie
     /// in [0, 1]; strains are taken into [0, `max_strain`] first.
     ///
-    /// `closest` is the smallest distance in t at which data are interpolated; closer ones are
-    /// smoothed.
+    /// Data at a distance in t of `closest` or less are smoothed, not interpolated.
     #[must_use]
     pub fn new(data: &[Datum], max_strain: f64, closest: f64) -> Self {
         let data: Vec<Datum> = data
             .iter()
             .map(|d| Datum { t: d.t, strain: d.strain.clamp(0.0, max_strain) })
             .collect();
-        let crowded = data.windows(2).any(|pair| pair[1].t - pair[0].t < closest);
+        // Rows are whole numbers of cells apart: equal is equal but for rounding.
+        let crowded = data.windows(2).any(|pair| pair[1].t - pair[0].t < closest * (1.0 + 1e-9));
         match data.as_slice() {
             [] => Self::with_control(StrainForm::Zero, clamped(&[]), vec![0.0; 4], max_strain),
             [one] => Self::with_control(

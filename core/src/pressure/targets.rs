@@ -7,12 +7,12 @@ use std::collections::BTreeMap;
 
 use glam::DVec3;
 
-use super::formula::{LocalCurvature, warp_strain};
+use super::formula::{LocalCurvature, Wish, warp_strain};
 use super::strain_function::{Datum, StrainFunction};
 use crate::design::{Fabric, PressureModel};
 use crate::geometry::{ShapeOperator, SurfacePoint};
 use crate::surface::Surface;
-use crate::weave::{NodeIndex, NodeSearch, RestLengths, WovenModel};
+use crate::weave::{NodeIndex, NodeSearch, RestLengths, SpringKind, WovenModel};
 
 /// A wanted pressure, found on the surface.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -56,8 +56,8 @@ pub struct Targets {
     pub threads: Vec<ThreadTarget>,
     /// The closest node of every annotation.
     pub nodes: Vec<NodeIndex>,
-    /// Curvature along the threads at every annotation.
-    pub curvatures: Vec<LocalCurvature>,
+    /// Every annotation as a wish on its thread.
+    pub wishes: Vec<Wish>,
 }
 
 /// An annotation that no thread passes.
@@ -83,7 +83,9 @@ pub enum TargetError {
 }
 
 /// The wanted strains for these annotations; `row_spacing` in mm is the distance of threads below
-/// which strains are smoothed, `corrections` are added to the wanted strain by annotation.
+/// which strains are smoothed. With `corrections`, by annotation, these are added to the wanted
+/// strain, and Eq. (3) takes the strain that the weft threads really have; without, the paper's
+/// Lemma 4 stands and they have the fabric's.
 ///
 /// # Errors
 /// If there is no fabric, or none near an annotation.
@@ -94,7 +96,7 @@ pub fn target_strains(
     fabric: &Fabric,
     pressure_model: PressureModel,
     row_spacing: f64,
-    corrections: &[f64],
+    corrections: Option<&[f64]>,
 ) -> Result<Targets, TargetError> {
     let (first, last) = model.row_range().ok_or(TargetError::NoFabric)?;
     let rows = f64::from((last - first).max(1));
@@ -121,14 +123,24 @@ pub fn target_strains(
         });
         by_row.entry(node.i).or_default().push(k);
     }
+    let wishes: Vec<Wish> = (0..annotations.len())
+        .map(|k| Wish {
+            kpa: annotations[k].kpa,
+            curvature: curvatures[k],
+            weft_strain: match corrections {
+                Some(_) => column_strain(model, nodes[k].j).unwrap_or(fabric.weft_strain),
+                None => fabric.weft_strain,
+            },
+        })
+        .collect();
     let mut threads: Vec<ThreadTarget> = by_row
         .into_iter()
         .map(|(row, on_it)| {
-            let points: Vec<(f64, LocalCurvature)> =
-                on_it.iter().map(|&k| (annotations[k].kpa, curvatures[k])).collect();
+            let points: Vec<Wish> = on_it.iter().map(|&k| wishes[k]).collect();
             let wanted = warp_strain(pressure_model, fabric, &points);
-            let correction: f64 =
-                on_it.iter().map(|&k| corrections[k]).sum::<f64>() / on_it.len() as f64;
+            let correction = corrections.map_or(0.0, |strains| {
+                on_it.iter().map(|&k| strains[k]).sum::<f64>() / on_it.len() as f64
+            });
             let within = |strain: f64| strain.clamp(0.0, fabric.max_strain);
             ThreadTarget {
                 row,
@@ -151,7 +163,17 @@ pub fn target_strains(
     }
     let strains = (first..=last).map(|row| function.at(parameter(row))).collect();
     let rest = RestLengths::new(model.spacing(), first, strains, fabric.weft_strain);
-    Ok(Targets { rest, function, threads, nodes, curvatures })
+    Ok(Targets { rest, function, threads, nodes, wishes })
+}
+
+/// Strain of a column of weft springs taken together.
+fn column_strain(model: &WovenModel, column: i32) -> Option<f64> {
+    let (mut length, mut springs) = (0.0, 0);
+    for spring in model.springs().filter(|s| s.kind == SpringKind::Weft && s.a.j == column) {
+        length += spring.length;
+        springs += 1;
+    }
+    (springs > 0).then(|| length / (f64::from(springs) * model.spacing()) - 1.0)
 }
 
 /// Direction of the thread through a node, from the neighbours on both sides where there are two.

@@ -8,6 +8,7 @@ use super::{
 use crate::design::Limits;
 use crate::field::reachable_kpa;
 use crate::pipeline::Found;
+use crate::pressure::ThreadTarget;
 use crate::units::{PER_M_PER_PER_MM, mmhg_from_kpa};
 use crate::warning::Warning;
 
@@ -164,6 +165,7 @@ fn fit_warnings(found: &Found<'_>) -> Vec<Warning> {
             ),
         ));
     }
+    let mut smoothed = Vec::new();
     let limit = found.design.fabric.max_strain;
     for thread in &found.fit.targets.threads {
         let numbers = numbers(&thread.annotations);
@@ -183,20 +185,42 @@ fn fit_warnings(found: &Found<'_>) -> Vec<Warning> {
                 ),
             )),
             // Half a per cent of strain is some 3 % of a usual one.
-            Some(wanted) if (thread.fitted - thread.asked.unwrap_or(wanted)).abs() > 0.005 => {
-                warnings.push(Warning::new(
-                    "strain_smoothed",
-                    format!(
-                        "the thread of pressure {numbers} wants a strain of {wanted:.3} and gets \
-                         {:.3}: threads closer than row-spacing cannot differ freely",
-                        thread.fitted
-                    ),
-                ));
+            Some(wanted) if (given(thread, wanted) - wanted).abs() > 0.005 => {
+                smoothed.push((numbers, wanted, given(thread, wanted)));
             }
             _ => {}
         }
     }
+    warnings.extend(smoothed_warning(&smoothed));
     warnings
+}
+
+/// What the strain function gives a thread that wants `wanted`, correction aside.
+fn given(thread: &ThreadTarget, wanted: f64) -> f64 {
+    thread.asked.map_or(wanted, |asked| wanted + thread.fitted - asked)
+}
+
+/// One warning for all threads that are smoothed: a painted field has dozens.
+fn smoothed_warning(smoothed: &[(String, f64, f64)]) -> Option<Warning> {
+    let off = |entry: &(String, f64, f64)| (entry.2 - entry.1).abs();
+    let worst = smoothed.iter().reduce(|a, b| if off(b) > off(a) { b } else { a })?;
+    let (numbers, wanted, given) = worst;
+    let count = match smoothed.len() {
+        1 => "a thread".to_owned(),
+        many => format!("{many} threads, the most for"),
+    };
+    let message = if smoothed.len() == 1 {
+        format!(
+            "{count} of pressure {numbers} wants a strain of {wanted:.3} and is given {given:.3}: \
+             threads closer than row-spacing cannot differ freely"
+        )
+    } else {
+        format!(
+            "{count} pressure {numbers} (wanted {wanted:.3}, given {given:.3}), are given another \
+             strain than wanted: threads closer than row-spacing cannot differ freely"
+        )
+    };
+    Some(Warning::new("strain_smoothed", message))
 }
 
 fn pressure_warnings(found: &Found<'_>) -> Vec<Warning> {
