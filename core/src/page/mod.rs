@@ -320,7 +320,7 @@ fn curves(input: &PageInput<'_>) -> Tag {
 }
 
 fn girths(input: &PageInput<'_>, pairs: &[GirthPair]) -> Tag {
-    let all = section("Girths");
+    let all = tag("section").class("keep").child(tag("h2").text("Girths"));
     if pairs.is_empty() {
         return all.child(tag("p").text("No girths were found: the surface is not like a limb."));
     }
