@@ -5,6 +5,7 @@ desk and of a phone, and a print to PDF, are left in FOLDER/browser for people t
 program can judge of them is judged here. Needs chromium, poppler-utils and Pillow.
 """
 
+import html
 import json
 import os
 import pathlib
@@ -57,7 +58,10 @@ def browser(*arguments):
 
 
 def measured(width):
-    """Sizes of the page's elements at a width, from a copy that may run a script."""
+    """Sizes of the page's elements at a width, from a copy that may run a script.
+
+    The copy stands in a frame: a window of chromium is never narrower than 500 px.
+    """
     script = """<script>
       addEventListener('load', () => {
         const wide = document.documentElement.clientWidth;
@@ -70,22 +74,23 @@ def measured(width):
         const told = { wide, scroll: document.documentElement.scrollWidth,
                        high: document.documentElement.scrollHeight, out: out.slice(0, 9),
                        least: Math.min(...small) };
-        document.documentElement.setAttribute('data-told', JSON.stringify(told));
+        parent.document.documentElement.setAttribute('data-told', JSON.stringify(told));
       });
     </script>"""
     text = page.read_text()
     copy, count = re.subn(r'<meta[^>]*Content-Security-Policy[^>]*/>', script, text)
     expect(count == 1, "the page has no content security policy")
     with tempfile.TemporaryDirectory() as scratch:
-        file = pathlib.Path(scratch) / "copy.html"
-        file.write_text(copy)
+        file = pathlib.Path(scratch) / "frame.html"
+        frame = f'<iframe style="border:0" width="{width}" height="900" srcdoc="{html.escape(copy)}">'
+        file.write_text(f'<!DOCTYPE html><meta charset="utf-8"><body>{frame}</iframe></body>')
         dom = browser(
-            f"--window-size={width},900", "--virtual-time-budget=4000", "--dump-dom", file.as_uri()
+            "--window-size=1600,1200", "--virtual-time-budget=4000", "--dump-dom", file.as_uri()
         )
-    told = re.search(r'data-told="([^"]*)"', dom)
+    told = re.search(r'<html[^>]*data-told="([^"]*)"', dom)
     if not told:
         sys.exit("the measuring script did not run")
-    return json.loads(told.group(1).replace("&quot;", '"'))
+    return json.loads(html.unescape(told.group(1)))
 
 
 def ink(image):

@@ -178,7 +178,9 @@ fn verdict(input: &PageInput<'_>) -> Tag {
         .filter(|(_, p)| p.reason.is_some())
         .map(|(k, _)| (k + 1).to_string())
         .collect();
-    let words = if !report.fit.converged {
+    let words = if report.pattern.flipped > 0 || report.pattern.overlaps > 0 {
+        "\u{2717} This pattern folds or overlaps itself: it cannot be cut.".to_owned()
+    } else if !report.fit.converged {
         format!("Not converged after {} steps: no figure here is final.", report.fit.iterations)
     } else if all == 0 {
         "The design wants no pressures.".to_owned()
@@ -188,9 +190,9 @@ fn verdict(input: &PageInput<'_>) -> Tag {
         format!("\u{2717} {} of {all} wanted pressures are missed.", missed.len())
     } else {
         format!(
-            "\u{2717} {} of {all} wanted pressures {} missed: point {}.",
+            "\u{2717} {} of {all} wanted pressures {} {}.",
             missed.len(),
-            if missed.len() == 1 { "is" } else { "are" },
+            if missed.len() == 1 { "is missed: point" } else { "are missed: points" },
             missed.join(", ")
         )
     };
@@ -320,7 +322,7 @@ fn curves(input: &PageInput<'_>) -> Tag {
 }
 
 fn girths(input: &PageInput<'_>, pairs: &[GirthPair]) -> Tag {
-    let all = section("Girths");
+    let all = tag("section").class("keep").child(tag("h2").text("Girths"));
     if pairs.is_empty() {
         return all.child(tag("p").text("No girths were found: the surface is not like a limb."));
     }

@@ -1,6 +1,6 @@
 //! Colours for what a raster shows, as a PNG inside the page.
 //!
-//! An indexed image: every band of values in [`SHADES`] steps of light, lines between bands,
+//! An indexed image: every band of values in `SHADES` steps of light, lines between bands,
 //! hatching for what has no place on the scale. Limit: 8 bits index 256 colours, which bounds bands
 //! times shades.
 

@@ -56,18 +56,18 @@ fn pressure(number: usize, p: &PressureReport) -> Vec<Tag> {
     if let Some(reason) = &p.reason {
         notes.push(("Missed: ", reason.text.clone()));
     }
-    if let (Some(got), Some(local)) = (p.got_kpa, p.got_local_kpa) {
-        if (local - got).abs() > CREEP * got.abs() {
-            notes.push((
-                "",
-                format!(
-                    "From the fabric's strain near this point alone: {} mmHg ({} kPa); the brace \
-                     would creep here until its threads have evened out.",
-                    shown(mmhg_from_kpa(local), 1),
-                    shown(local, 2)
-                ),
-            ));
-        }
+    if let (Some(got), Some(local)) = (p.got_kpa, p.got_local_kpa)
+        && (local - got).abs() > CREEP * got.abs()
+    {
+        notes.push((
+            "",
+            format!(
+                "From the fabric's strain near this point alone: {} mmHg ({} kPa); the brace would \
+                 creep here until its threads have evened out.",
+                shown(mmhg_from_kpa(local), 1),
+                shown(local, 2)
+            ),
+        ));
     }
     let [x, y, z] = p.at;
     let off = p.got_kpa.filter(|_| p.asked_kpa > 0.0).map(|got| got / p.asked_kpa - 1.0);

@@ -290,6 +290,17 @@ fn a_run_that_did_not_converge_says_so_before_any_figure() {
 }
 
 #[test]
+fn a_pattern_that_cannot_be_cut_is_no_success() {
+    let mut sleeve = sleeve();
+    sleeve.report.pressures.truncate(1);
+    let verdict = |sleeve: &Sleeve| words(named(&parse(&page(sleeve, false)), "body")[0]);
+    assert!(verdict(&sleeve).contains("1 of 1 wanted pressures are reached, by the model"));
+    sleeve.report.pattern.overlaps = 1;
+    let said = verdict(&sleeve);
+    assert!(said.contains("it cannot be cut") && !said.contains("reached, by the model"));
+}
+
+#[test]
 fn empty_wishes_and_unknown_values_make_a_page_too() {
     let mut sleeve = sleeve();
     sleeve.report.pressures.clear();
