@@ -102,7 +102,11 @@ impl Pull {
                         pressing -= weight * outward;
                         area += weight * areas[place];
                     }
-                    if area > 0.0 { (tangential / area, pressing / area) } else { (tangential, 0.0) }
+                    if area > 0.0 {
+                        (tangential / area, pressing / area)
+                    } else {
+                        (tangential, 0.0)
+                    }
                 },
             )
             .collect();

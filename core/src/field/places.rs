@@ -88,7 +88,12 @@ impl Places {
 
     /// The places within `radius` mm of one, reached through such places, with their distances;
     /// itself first.
-    pub(super) fn within(&self, visits: &mut Visits, from: usize, radius: f64) -> Vec<(usize, f64)> {
+    pub(super) fn within(
+        &self,
+        visits: &mut Visits,
+        from: usize,
+        radius: f64,
+    ) -> Vec<(usize, f64)> {
         visits.round += 1;
         visits.queue.clear();
         visits.queue.push(from);

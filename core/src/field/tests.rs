@@ -39,9 +39,8 @@ impl Worn {
     }
 
     fn field_with(&self, scan: &Surface, fabric: &Fabric, parameters: &Parameters) -> Field {
-        let sewn = |v: VertexId| {
-            self.seams.iter().any(|s| s.left.contains(&v) || s.right.contains(&v))
-        };
+        let sewn =
+            |v: VertexId| self.seams.iter().any(|s| s.left.contains(&v) || s.right.contains(&v));
         let free: Vec<HalfEdgeId> = self
             .disk
             .boundary_loops()
@@ -246,11 +245,8 @@ fn the_inner_bend_of_an_elbow_lifts_the_fabric_that_runs_along_it() {
         DVec3::new(out * along.cos(), out * along.sin(), 40.0 * around.sin())
     };
     // Rows of the grid run round the tube: the limb's outside is on the other hand.
-    let worn = Worn::new(
-        [32, 24],
-        |s, t| at(1.0 - s, 1.0 - t),
-        |s, t| DVec2::new(60.0 * s, 48.0 * t),
-    );
+    let worn =
+        Worn::new([32, 24], |s, t| at(1.0 - s, 1.0 - t), |s, t| DVec2::new(60.0 * s, 48.0 * t));
     let field = worn.field(&fabric(0.5, 0.5));
     let summary = field.summary(&worn.disk, &worn.coordinates, 6.5, 0.5);
     let total: f64 = field.area_mm2.iter().sum();
@@ -280,11 +276,9 @@ fn nodal_forces_press_as_the_formula_says() {
         let out = 110.0 + 45.0 * around.cos();
         DVec3::new(out * along.cos(), 45.0 * around.sin(), out * along.sin())
     };
-    let worn = Worn::new(
-        [40, 56],
-        at,
-        |s, t| DVec2::new(45.0 * 1.4 * s * (0.8 + 0.1 * t), 110.0 * t + 4.0 * s * s),
-    );
+    let worn = Worn::new([40, 56], at, |s, t| {
+        DVec2::new(45.0 * 1.4 * s * (0.8 + 0.1 * t), 110.0 * t + 4.0 * s * s)
+    });
     let fabric = fabric(0.5, 0.8);
     let places = Places::new(&worn.disk, &[]);
     let cloth = Cloth::new(&worn.disk, &worn.coordinates);
@@ -354,8 +348,7 @@ fn a_crest_is_read_over_5_mm_and_half_lost_over_10() {
         let (first, second) = ((a - b) / (2.0 * h), (a - 2.0 * r + b) / (h * h));
         (r * r + 2.0 * first * first - r * second) / (r * r + first * first).powf(1.5)
     };
-    let worn =
-        Worn::new([100, 50], at, |s, t| DVec2::new(90.0 * s, 60.0 * t));
+    let worn = Worn::new([100, 50], at, |s, t| DVec2::new(90.0 * s, 60.0 * t));
     let field = worn.field(&fabric(0.5, 0.5));
     let summary = field.summary(&worn.disk, &worn.coordinates, 3.0, 0.5);
     let fine = summary.max_fine_kpa.expect("a clean scan");
@@ -395,14 +388,10 @@ fn the_sides_of_a_seam_share_their_pressure() {
     // The left half of the tube stretched by 0.1, the right by 0.3: at the seam their mean, once by
     // area in the pattern (strain), once by area on the limb (pressure).
     let columns = TUBE[0] as f64;
-    let worn = Worn::new(
-        TUBE,
-        on_tube,
-        |s, t| {
-            let x = if s < 0.5 { s / 1.1 } else { 0.5 / 1.1 + (s - 0.5) / 1.3 };
-            DVec2::new(TAU * 45.0 * x, 100.0 * t)
-        },
-    )
+    let worn = Worn::new(TUBE, on_tube, |s, t| {
+        let x = if s < 0.5 { s / 1.1 } else { 0.5 / 1.1 + (s - 0.5) / 1.3 };
+        DVec2::new(TAU * 45.0 * x, 100.0 * t)
+    })
     .sewn(TUBE);
     let field = worn.field_with(&limb(2.5), &fabric(0.5, 0.5), &Parameters::default());
     let middle = 20 * (TUBE[0] + 1);

@@ -1,10 +1,10 @@
 //! Gathers what the stages found into a report, and the warnings that follow from it.
 
+use super::field::{missed, report_field};
 use super::{
     ENERGY_UNIT, FitReport, GirthReport, HistoryEntry, PatternReport, PressureReport, Reason,
     Report, SeamReport, StrainDatum, StrainFunctionReport, StrainRow, SurfaceReport,
 };
-use super::field::{missed, report_field};
 use crate::design::Limits;
 use crate::field::reachable_kpa;
 use crate::pipeline::Found;

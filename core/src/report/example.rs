@@ -1,11 +1,11 @@
 //! A small report for the tests of this folder.
 
+use super::field::FieldReport;
 use super::json::{
     ENERGY_UNIT, FitReport, GirthReport, HistoryEntry, ParameterValues, PatternReport,
     PressureReport, Reason, Report, SeamReport, StrainDatum, StrainFunctionReport, StrainRow,
     SurfaceReport,
 };
-use super::field::FieldReport;
 use crate::design::{Fabric, Piece, PressureModel};
 use crate::parameters::Parameters;
 use crate::warning::Warning;
