@@ -3,6 +3,7 @@
 
 mod cone;
 mod cylinder;
+mod field;
 mod plane;
 
 use support::check::WornObj;

@@ -31,7 +31,7 @@ use glam::{DVec2, DVec3};
 
 pub use bending::{FINE_RADIUS_MM, Unreadable};
 pub use reachable::reachable_kpa;
-pub use summary::{COMPRESSED_BELOW, LIFTING_BELOW_KPA, Peak, RowMean, Summary};
+pub use summary::{COMPRESSED_BELOW, LIFTING_BELOW_KPA, Peak, RowMean, SKIN_FRICTION, Summary};
 
 use crate::design::{Fabric, PressureModel};
 use crate::parameters::Parameters;
@@ -106,8 +106,10 @@ pub struct Field {
 #[must_use]
 pub fn everywhere(input: &FieldInput<'_>) -> Field {
     let places = Places::new(input.disk, input.seams);
+
     let cloth = Cloth::new(input.disk, input.coordinates);
     let bending = Bending::new(input.scan, &places, input.parameters);
+
     let pull = Pull::new(
         input.disk,
         input.coordinates,
@@ -118,6 +120,7 @@ pub fn everywhere(input: &FieldInput<'_>) -> Field {
         (&bending.normal, &cloth.worn_area),
         input.parameters.curvature_radius,
     );
+
     let curvature: Vec<LocalCurvature> = input
         .disk
         .vertex_ids()

@@ -14,7 +14,7 @@ use super::places::Places;
 
 /// A mesh is fine if a typical edge is shorter than this share of the spacing: below, computing a
 /// few places and carrying costs less than computing all.
-const FINE_SHARE: f64 = 0.5;
+const FINE_SHARE: f64 = 0.7;
 
 /// Reach of a computed place, in spacings: round any place lie at least its own piece's and the
 /// neighbouring pieces' computed places.

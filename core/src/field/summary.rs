@@ -16,6 +16,9 @@ pub const COMPRESSED_BELOW: f64 = -0.005;
 /// this are those of a fabric that only lies there.
 pub const LIFTING_BELOW_KPA: f64 = -0.01;
 
+/// Friction of fabric on dry skin, the upper end of the textbooks' 0.3 to 0.5.
+pub const SKIN_FRICTION: f64 = 0.5;
+
 /// A largest value and where it is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Peak {
@@ -67,6 +70,8 @@ pub struct Summary {
     pub p95_friction: Option<f64>,
     /// That area, in mm².
     pub friction_area: f64,
+    /// Area where more than [`SKIN_FRICTION`] is needed, in mm²: the fabric creeps there.
+    pub area_over_friction: f64,
     /// Mean pressures from the far end to the end near the body.
     pub rows: Vec<RowMean>,
     /// How much the line through the row means rises from the far end to the end near the body,
@@ -88,7 +93,8 @@ impl Field {
         max_strain: f64,
     ) -> Summary {
         let area_where = |is: &dyn Fn(usize) -> bool| -> f64 {
-            (0..self.area_mm2.len()).filter(|&i| is(i)).map(|i| self.area_mm2[i]).sum()
+            // From zero: the sum of nothing would be −0.
+            (0..self.area_mm2.len()).filter(|&i| is(i)).fold(0.0, |sum, i| sum + self.area_mm2[i])
         };
         let peak = |of: &dyn Fn(usize) -> Option<f64>| {
             let known = disk.vertex_ids().filter_map(|v| Some((v, of(v.index())?)));
@@ -123,6 +129,9 @@ impl Field {
             max_friction: peak(&|i| self.friction[i]),
             p95_friction: self.percentile(frictions().collect(), 0.95),
             friction_area: area_where(&|i| self.friction[i].is_some()),
+            area_over_friction: area_where(&|i| {
+                self.friction[i].is_some_and(|friction| friction > SKIN_FRICTION)
+            }),
             rise_kpa: rise(&rows),
             mean_kpa: mean(&rows),
             rows,

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::json::PressureReport;
 use crate::design::{Design, Limits};
-use crate::field::{COMPRESSED_BELOW, FINE_RADIUS_MM, Field, Summary};
+use crate::field::{COMPRESSED_BELOW, FINE_RADIUS_MM, Field, SKIN_FRICTION, Summary};
 use crate::surface::Surface;
 use crate::units::mmhg_from_kpa;
 use crate::warning::Warning;
@@ -71,6 +71,10 @@ pub struct FieldReport {
     pub friction_p95: Option<f64>,
     /// Area for which a coefficient can be stated: off the free edges, where something presses.
     pub friction_area_mm2: f64,
+    /// A high friction coefficient of fabric on dry skin.
+    pub skin_friction: f64,
+    /// Area where more than that is needed, in mm²: the fabric creeps there.
+    pub area_over_skin_friction_mm2: f64,
     /// How much pressure rises from the far end to the end near the body, in kPa: a straight line
     /// through `rows`.
     pub rise_to_body_kpa: f64,
@@ -132,6 +136,8 @@ fn figures(field: &Field, summary: &Summary, limit_kpa: f64) -> FieldReport {
         friction_max_at: summary.max_friction.map(|peak| peak.at.to_array()),
         friction_p95: summary.p95_friction,
         friction_area_mm2: summary.friction_area,
+        skin_friction: SKIN_FRICTION,
+        area_over_skin_friction_mm2: summary.area_over_friction,
         rise_to_body_kpa: summary.rise_kpa,
         rows: summary
             .rows
