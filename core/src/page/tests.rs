@@ -72,6 +72,7 @@ fn report() -> Report {
         weft_curvature_per_m: 0.0,
         warp_strain: Some(0.25),
         weft_strain: Some(0.0),
+        reachable_kpa: Some([0.0, 6.0]),
         thread: Some(3),
         reason: None,
     };
@@ -132,6 +133,7 @@ fn report() -> Report {
             }],
         },
         pressures: vec![reached, missed],
+        field: crate::report::FieldReport::default(),
         pattern: PatternReport { width_mm: 201.0, height_mm: LENGTH, ..PatternReport::default() },
         seams: vec![SeamReport { left_mm: LENGTH, right_mm: LENGTH - 1.5 }],
         warnings: vec![Warning::new("over_limit", "pressure 2 asks <too> much")],

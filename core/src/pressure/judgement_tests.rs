@@ -51,9 +51,14 @@ fn wish(z: f64, kpa: f64) -> Wish {
 
 /// Judges wishes on a pattern narrower by `reached` than the cylinder.
 fn judged(wishes: &[Wish], reached: f64, converged: bool) -> Vec<Judgement> {
+    judged_along(wishes, reached, 0.0, converged)
+}
+
+/// The same on a pattern that is also shorter by `weft`, on a limb that bulges along its length.
+fn judged_along(wishes: &[Wish], reached: f64, weft: f64, converged: bool) -> Vec<Judgement> {
     let (disk, development) = slit_cylinder();
     let plane: Vec<DVec2> =
-        development.iter().map(|p| DVec2::new(p.x / (1.0 + reached), p.y)).collect();
+        development.iter().map(|p| DVec2::new(p.x / (1.0 + reached), p.y / (1.0 + weft))).collect();
     let shifted: Vec<DVec2> = plane.iter().map(|&p| p + DVec2::new(1.3, 1.7)).collect();
     let model = lay(&disk, &shifted, 5.0);
     let locator = Locator::new(&disk);
@@ -69,7 +74,7 @@ fn judged(wishes: &[Wish], reached: f64, converged: bool) -> Vec<Judgement> {
                 v: DVec3::Z,
                 kuu: wish.curvature,
                 kuv: 0.0,
-                kvv: 0.0,
+                kvv: 0.01,
             };
             let (point, _) = locator.closest(at).unwrap();
             Annotation { at, point, kpa: wish.kpa, shape }
@@ -141,9 +146,38 @@ fn two_wishes_on_one_thread_name_each_other_and_two_alike_do_not() {
     assert_eq!(between[0].reason, Some(Reason::ThreadConflict { others: vec![1] }));
     let alike = judged(&[wish(60.0, 2.0), second(2.0)], strain(1.0), true);
     assert_eq!(reasons(&alike), [Some("shape"); 2]);
-    let apart = Wish { z: 90.0, ..second(3.0) };
-    let other_thread = judged(&[wish(60.0, 1.0), apart], strain(2.0), true);
-    assert_eq!(reasons(&other_thread), [Some("shape"); 2]);
+}
+
+#[test]
+fn wishes_on_neighbouring_threads_name_each_other_and_distant_ones_do_not() {
+    let near = [wish(50.0, 1.0), wish(80.0, 3.0)];
+    let between = judged(&near, strain(2.0), true);
+    assert_eq!(reasons(&between), [Some("neighbour_conflict"); 2]);
+    assert_eq!(between[1].reason, Some(Reason::NeighbourConflict { others: vec![0] }));
+    // Both pressed too much: neither draws the other there.
+    assert_eq!(reasons(&judged(&near, strain(4.0), true))[1], Some("shape"));
+    let distant = [wish(15.0, 1.0), wish(100.0, 3.0)];
+    assert_eq!(reasons(&judged(&distant, strain(2.0), true)), [Some("shape"); 2]);
+}
+
+#[test]
+fn weft_threads_that_press_are_named_and_slack_ones_are_not() {
+    // 0.5 N/mm at 4 % on a curvature of 0.01 per mm is 0.2 kPa, less what the warp loses.
+    let pressed = judged_along(&[wish(60.0, 2.0)], strain(2.0) + 0.005, 0.04, true);
+    assert!(
+        matches!(pressed[0].reason, Some(Reason::WeftTension { strain, kpa })
+        if (strain - 0.04).abs() < 1e-6 && (0.05..0.2).contains(&kpa)),
+        "{pressed:?}"
+    );
+    assert_eq!(reasons(&judged(&[wish(60.0, 2.0)], strain(2.0) + 0.005, true)), [None]);
+}
+
+#[test]
+fn a_thread_with_its_strain_and_another_pressure_is_between_threads() {
+    // 2.0 and 2.1 kPa are one wish for a thread; it has 2.7 % more than their mean.
+    let second = Wish { degrees: 90.0, ..wish(60.0, 2.1) };
+    let pair = judged(&[wish(60.0, 2.0), second], 1.027 * strain(2.05), true);
+    assert_eq!(reasons(&pair), [Some("between_threads"), None]);
 }
 
 #[test]
