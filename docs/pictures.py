@@ -26,7 +26,7 @@ def shot(page, width, height, to):
         command += [f"--window-size={width},{height}", f"--screenshot={raw}", page.as_uri()]
         subprocess.run(command, check=True, capture_output=True, timeout=120)
         picture = Image.open(raw).convert("RGB")
-        picture.quantize(96, dither=Image.Dither.NONE).save(docs / to, optimize=True)
+        picture.quantize(224, dither=Image.Dither.NONE).save(docs / to, optimize=True)
     size = (docs / to).stat().st_size
     print(f"{to}: {size // 1000} kB")
     if size > LARGEST:

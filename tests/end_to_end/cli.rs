@@ -85,7 +85,7 @@ fn a_sample_comes_with_its_design_and_both_are_taken() {
     assert_eq!(std::fs::read(&out).unwrap(), first, "the same noise every time");
     let flatten =
         bench.flatten_file(&out, &design, &["--quiet", "--spacing", "12"], &[]).succeeded();
-    assert_eq!(bench.results().len(), 4, "{flatten:?}");
+    assert_eq!(bench.results().len(), 5, "{flatten:?}");
 }
 
 #[test]
