@@ -10,7 +10,9 @@
 //!   cells of a forearm the projection alone is 0.15 mm short;
 //! - a vertex takes the mean of what the nodes round it say, with a smooth weight that ends a few cells
 //!   away, so that the map is continuous where the closest node changes; inside the fabric and
-//!   beyond its last cells alike.
+//!   beyond its last cells alike. Where that still folds it is repaired, see `unfold`.
+
+mod unfold;
 
 use std::collections::VecDeque;
 
@@ -96,7 +98,8 @@ impl<'a> Mapping<'a> {
             .map(|(&slot, &place)| self.seen_from(slot, place))
             .collect();
         // One after the other, so that of several errors the same one is reported every time.
-        seen.into_iter().collect()
+        let plane = seen.into_iter().collect::<Result<Vec<DVec2>, MappingError>>()?;
+        Ok(unfold::unfolded(self, &closest, plane))
     }
 
     /// The closest node of every vertex, by slot: from vertex to vertex along the surface, each
@@ -164,6 +167,12 @@ impl<'a> Mapping<'a> {
         // Again round the first mean: the closest node alone may be one at the edge.
         let mean = self.blend(place, first);
         Ok(self.blend(place, mean) * self.model.spacing())
+    }
+
+    /// Planar coordinates (mm) of a place as one node alone sees it, Eqs. (8) and (9).
+    fn seen_alone(&self, slot: usize, place: DVec3) -> Option<DVec2> {
+        let says = predict(self.model, self.model.index(slot), place)?;
+        Some(says * self.model.spacing())
     }
 
     /// The mean of what the nodes round the index coordinates `about` say of a place.
