@@ -5,6 +5,7 @@ mod demo;
 mod files;
 mod invariance;
 mod parameters;
+mod samples;
 
 use glam::DVec3;
 use serde_json::Value;

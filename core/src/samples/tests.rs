@@ -125,10 +125,10 @@ fn the_designs_ask_for_what_a_weave_can_give() {
             // Laplace: P = k ε κ, with 1 kPa = 1e-3 N/mm².
             let strain = wanted.kpa * 1e-3 / (design.fabric.warp * round);
             assert!((0.06..0.22).contains(&strain), "{name} {wish:?}: strain {strain}");
-            // No sharp crest, no hollow within a curvature radius.
+            // No sharp crest and no hollow within a curvature radius.
             for (ds, dw) in [(8.0, 0.0), (-8.0, 0.0), (0.0, 0.15), (0.0, -0.15)] {
                 let (near, _) = curvature(*limb, wish.station + ds, wish.angle + dw);
-                assert!((0.55..1.6).contains(&(near / round)), "{name} {wish:?}: {near}, {round}");
+                assert!((0.5..1.7).contains(&(near / round)), "{name} {wish:?}: {near}, {round}");
             }
         }
         let mut stations: Vec<f64> = mmhg.iter().map(|wish| wish.station).collect();
