@@ -8,6 +8,7 @@ mod invariance;
 mod page;
 mod parameters;
 mod reasons;
+mod samples;
 
 use glam::DVec3;
 use serde_json::Value;

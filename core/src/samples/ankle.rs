@@ -34,9 +34,9 @@ const SECTIONS: Sections = Sections {
         [37.0, 36.0, 43.0, 37.0],
         [35.0, 34.0, 39.0, 34.5],
         [34.5, 34.5, 40.0, 35.0],
-        [36.0, 35.5, 47.0, 35.5],
-        [38.0, 35.0, 62.0, 35.0],
-        [38.0, 34.5, 68.0, 34.5],
+        [36.0, 35.5, 50.0, 35.5],
+        [38.0, 35.0, 67.0, 35.0],
+        [38.0, 34.5, 69.0, 34.5],
         [36.0, 36.0, 48.0, 35.0],
         [34.0, 38.5, 40.5, 37.0],
         [33.0, 40.5, 36.0, 39.0],
@@ -99,3 +99,38 @@ pub(super) const SPECIMEN: Specimen = Specimen {
     ],
     configurations: &[],
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn girths_are_those_of_a_slender_leg_and_foot() {
+        assert!((290.0..310.0).contains(&Ankle.girth(0.0)));
+        let above = Ankle.girth(85.0);
+        assert!((215.0..235.0).contains(&above), "{above}");
+        assert!(Ankle.girth(HEEL - 30.0) > above + 20.0, "the malleoli");
+        assert!((270.0..320.0).contains(&Ankle.girth(HEEL)), "round heel and instep");
+        assert!((225.0..250.0).contains(&Ankle.girth(LENGTH)));
+    }
+
+    #[test]
+    fn the_foot_stands_out_from_the_leg_with_a_heel_behind() {
+        let leg = Ankle.frame(0.0).along;
+        let foot = Ankle.frame(LENGTH).along;
+        let angle = 180.0 - leg.angle_between(foot).to_degrees();
+        assert!((90.0..100.0).contains(&angle), "{angle}°");
+        // The heel lies further back than the Achilles tendon, and lower than the sole's arch.
+        let rearmost = |from: i32, to: i32| {
+            let stations = (from..to).map(f64::from);
+            stations.map(|station| Ankle.point(station, PI).x).fold(f64::MAX, f64::min)
+        };
+        let (tendon, heel) = (Ankle.point(85.0, PI).x, rearmost(110, 150));
+        assert!(heel < tendon - 5.0, "{heel} {tendon}");
+        let lowest = |from: i32| {
+            let stations = (from..from + 30).map(f64::from);
+            stations.map(|station| Ankle.point(station, PI).z).fold(f64::MAX, f64::min)
+        };
+        assert!(lowest(155) < lowest(205), "{} {}", lowest(155), lowest(205));
+    }
+}

@@ -167,3 +167,18 @@ const CONFIGURATIONS: [Configuration; 4] = [
 const UPPER: Wish = wish(40.0, 1.3, 0.0);
 const MIDDLE: Wish = wish(ELBOW + 20.0, 1.3, 0.0);
 const LOWER: Wish = wish(196.0, 1.3, 0.0);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn girths_are_those_of_a_grown_arm() {
+        assert!((275.0..290.0).contains(&Elbow.girth(20.0)));
+        assert!((250.0..265.0).contains(&Elbow.girth(ELBOW)));
+        let forearm = Elbow.girth(160.0);
+        assert!((255.0..270.0).contains(&forearm));
+        assert!(forearm > Elbow.girth(200.0) + 15.0, "the forearm tapers");
+        assert!((190.0..205.0).contains(&Elbow.girth(LENGTH)));
+    }
+}

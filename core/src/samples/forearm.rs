@@ -86,3 +86,16 @@ pub(super) const SPECIMEN: Specimen = Specimen {
     ],
     configurations: &[],
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn girths_are_those_of_a_grown_arm() {
+        assert!((250.0..270.0).contains(&Forearm.girth(30.0)));
+        assert!((160.0..172.0).contains(&Forearm.girth(LENGTH)));
+        let girths: Vec<f64> = (2..=9).map(|k| Forearm.girth(25.0 * f64::from(k))).collect();
+        assert!(girths.is_sorted_by(|a, b| a > b), "it tapers: {girths:?}");
+    }
+}

@@ -92,7 +92,7 @@ pub(super) const SPECIMEN: Specimen = Specimen {
     mmhg: &[
         wish(40.0, 1.2, 10.0),
         wish(100.0, FRAC_PI_2, 10.0),
-        wish(200.0, FRAC_PI_2, 12.0),
+        wish(212.0, 1.45, 12.0),
         wish(255.0, FRAC_PI_2, 12.0),
     ],
     configurations: &[Configuration {
@@ -112,3 +112,23 @@ pub(super) const SPECIMEN: Specimen = Specimen {
         }],
     }],
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn girths_are_those_of_a_grown_leg() {
+        assert!((380.0..440.0).contains(&Knee.girth(0.0)));
+        assert!((355.0..380.0).contains(&Knee.girth(KNEE)));
+        let calf = Knee.girth(250.0);
+        assert!((340.0..365.0).contains(&calf), "{calf}");
+        assert!(calf > Knee.girth(LENGTH), "the calf is thickest above the end");
+    }
+
+    #[test]
+    fn the_kneecap_stands_out_in_front() {
+        let front = |station: f64| Knee.section(station, 0.04).x;
+        assert!(front(KNEE) > front(KNEE - 40.0) + 5.0 && front(KNEE) > front(KNEE + 25.0) + 3.0);
+    }
+}

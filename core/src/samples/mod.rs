@@ -11,6 +11,8 @@ mod knee;
 mod noise;
 mod opening;
 mod shape;
+#[cfg(test)]
+mod tests;
 mod tube;
 mod wishes;
 mod wrist;
@@ -103,14 +105,14 @@ pub enum SampleError {
         given: f64,
     },
     /// The limb has no place for an opening.
-    #[error("the sample `{name}` has no opening: only these have one: {}", with_opening().join(", "))]
+    #[error("the sample `{name}` has no opening; these can have one: {}", with_opening().join(", "))]
     Opening {
         /// The limb.
         name: &'static str,
     },
     /// The limb has no example of the paper.
     #[error(
-        "the sample `{name}` has no configuration: leave it out, or take one of {}",
+        "the sample `{name}` has no configuration; these have: {}",
         with_configurations().join(", ")
     )]
     NoConfiguration {
@@ -133,7 +135,7 @@ pub enum SampleError {
     },
     /// The example is not made in this fabric.
     #[error(
-        "configuration `{configuration}` of the sample `{name}` is not made in a fabric `{given}`; \
+        "configuration `{configuration}` of the sample `{name}` is not made in the fabric `{given}`; \
          the nearest name is `{nearest}` (there are: {})",
         fabrics.join(", ")
     )]
@@ -240,101 +242,4 @@ fn design(
         }
     })?;
     Ok(specimen.example(configuration, weave))
-}
-
-#[cfg(test)]
-mod tests {
-    use std::f64::consts::PI;
-
-    use super::*;
-    use crate::surface::{Surface, VertexId};
-
-    fn surface(mesh: &RawMesh) -> Surface {
-        let triangles =
-            mesh.polygons.iter().map(|p| [p[0], p[1], p[2]].map(VertexId::new)).collect();
-        Surface::new(mesh.points.clone(), triangles).unwrap()
-    }
-
-    #[test]
-    fn every_limb_is_an_outward_tube_of_well_shaped_triangles() {
-        for name in NAMES {
-            for triangles in [500, 2_000, 20_000] {
-                let mesh = sample(name, triangles, 0.0).unwrap().mesh;
-                let surface = surface(&mesh);
-                assert_eq!(surface.euler_characteristic(), 0);
-                assert_eq!(surface.boundary_loops().len(), 2);
-                assert_eq!(surface.components().1, 1);
-                let count = surface.triangle_count() as f64;
-                assert!((count / triangles as f64 - 1.0).abs() < 0.1, "{count} of {triangles}");
-                let smallest = surface
-                    .triangle_ids()
-                    .flat_map(|t| {
-                        let p = surface.corners(t);
-                        (0..3).map(move |k| {
-                            (p[(k + 1) % 3] - p[k]).angle_between(p[(k + 2) % 3] - p[k])
-                        })
-                    })
-                    .fold(PI, f64::min);
-                assert!(smallest > 15f64.to_radians(), "{}°", smallest.to_degrees());
-                // Divergence theorem: the volume of all rays from the origin, inside the limb,
-                // to its skin; negative if the triangles faced inward.
-                let volume: f64 = surface
-                    .triangle_ids()
-                    .map(|t| {
-                        let [a, b, c] = surface.corners(t);
-                        a.dot(b.cross(c)) / 6.0
-                    })
-                    .sum();
-                assert!(volume > 1e5, "{volume} mm³");
-            }
-        }
-    }
-
-    #[test]
-    fn the_same_arguments_give_the_same_limb() {
-        for noise in [0.0, 0.3] {
-            let [a, b] = [(); 2].map(|()| sample("elbow", 3_000, noise).unwrap());
-            let bits = |s: &Sample| -> Vec<[u64; 3]> {
-                s.mesh.points.iter().map(|p| p.to_array().map(f64::to_bits)).collect()
-            };
-            assert_eq!(bits(&a), bits(&b));
-            assert_eq!(a, b);
-        }
-    }
-
-    #[test]
-    fn noise_is_along_the_normal_and_as_large_as_asked() {
-        let clean = sample("elbow", 20_000, 0.0).unwrap().mesh;
-        let noisy = sample("elbow", 20_000, 0.4).unwrap().mesh;
-        assert_eq!(clean.polygons, noisy.polygons);
-        let normals = surface(&clean).vertex_normals();
-        let count = clean.points.len() as f64;
-        let (mut square, mut sideways) = (0.0, 0.0);
-        for ((a, b), n) in clean.points.iter().zip(&noisy.points).zip(normals) {
-            let moved = *b - *a;
-            square += moved.length_squared();
-            sideways += (moved - moved.dot(n) * n).length_squared();
-        }
-        let deviation = (square / count).sqrt();
-        // The standard error of a deviation over 10,000 draws is 0.7 %.
-        assert!((deviation / 0.4 - 1.0).abs() < 0.03, "{deviation} mm");
-        assert!((sideways / square).sqrt() < 0.1);
-    }
-
-    #[test]
-    fn a_wrong_argument_is_named_with_the_remedy() {
-        let message = |name, triangles, noise| sample(name, triangles, noise).unwrap_err();
-        assert_eq!(
-            message("elbwo", 1_000, 0.0).to_string(),
-            "there is no sample `elbwo`; the nearest name is `elbow` (there are: elbow)"
-        );
-        assert_eq!(
-            message("elbow", 499, 0.0).to_string(),
-            "a sample cannot have 499 triangles: ask for 500 to 2000000"
-        );
-        assert!(matches!(message("elbow", 2_000_001, 0.0), SampleError::Triangles { .. }));
-        for noise in [-0.1, 2.1, f64::NAN, f64::INFINITY] {
-            assert!(matches!(message("elbow", 1_000, noise), SampleError::Noise { .. }));
-        }
-    }
 }

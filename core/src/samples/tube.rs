@@ -105,7 +105,7 @@ pub(super) struct Frame {
 
 impl Frame {
     /// The point with these coordinates (front, outer side, along) from here.
-    fn place(&self, from_centre: DVec3) -> DVec3 {
+    pub(super) fn place(&self, from_centre: DVec3) -> DVec3 {
         self.centre
             + from_centre.x * self.front
             + from_centre.y * self.outer

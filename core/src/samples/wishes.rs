@@ -27,11 +27,11 @@ pub(super) struct Specimen {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wish {
     /// Along the limb, in mm.
-    station: f64,
+    pub(super) station: f64,
     /// Round the limb, in radians.
-    angle: f64,
+    pub(super) angle: f64,
     /// How much, in the unit that its list states.
-    pressure: f64,
+    pub(super) pressure: f64,
 }
 
 impl Wish {

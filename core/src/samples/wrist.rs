@@ -60,7 +60,7 @@ const BUMPS: [Bump; 8] = [
 
 /// The thumb's base, as far as a brace covers it.
 const THUMB: Bump =
-    Bump { height: 21.0, station: 136.0, long: 14.5, angle: FRAC_PI_2 - 0.15, wide: 0.8 };
+    Bump { height: 21.0, station: 136.0, long: 14.5, angle: FRAC_PI_2 - 0.15, wide: 0.68 };
 /// Where the thumb points, per height: to the palm, to the outer side, to the fingers. Its skin
 /// moves this way rather than along the hand's normal, which would fan out round the hand's edge
 /// and make a mushroom of it.
@@ -86,7 +86,7 @@ impl Limb for Wrist {
 
     fn opening(&self) -> Option<Opening> {
         // Where the thumb leaves the brace: some 70 mm round.
-        Some(Opening { bump: THUMB, height: 0.72 * THUMB.height })
+        Some(Opening { bump: THUMB, height: 0.82 * THUMB.height })
     }
 }
 
@@ -100,8 +100,8 @@ pub(super) const SPECIMEN: Specimen = Specimen {
     mmhg: &[
         wish(36.0, FRAC_PI_2, 14.0),
         wish(68.0, FRAC_PI_2, 17.0),
-        wish(104.0, -1.96, 16.0),
-        wish(168.0, -0.78, 15.0),
+        wish(104.0, -0.78, 14.0),
+        wish(138.0, -0.68, 14.0),
     ],
     configurations: &[Configuration {
         name: "paper",
@@ -113,3 +113,16 @@ pub(super) const SPECIMEN: Specimen = Specimen {
         }],
     }],
 };
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn girths_are_those_of_a_grown_hand() {
+        assert!((200.0..215.0).contains(&Wrist.girth(0.0)));
+        assert!((160.0..172.0).contains(&Wrist.girth(WRIST)));
+        assert!((190.0..210.0).contains(&Wrist.girth(LENGTH)));
+        assert!(Wrist.girth(THUMB.station) > Wrist.girth(LENGTH) + 25.0, "the thumb's base");
+    }
+}
