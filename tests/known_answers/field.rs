@@ -1,8 +1,9 @@
 //! Pressure everywhere, recomputed from the written pattern and the fixture's own curvature.
 
 use std::collections::BTreeMap;
+use std::f64::consts::{PI, TAU};
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use serde_json::{Value, json};
 use support::check::WornObj;
 use support::cli::Bench;
@@ -46,6 +47,64 @@ fn pressures(worn: &WornObj, radius: f64, stiffness: f64) -> Vec<Place> {
         place.1 += on_limb / 3.0;
     }
     places.into_values().map(|(force, area)| Place { kpa: force / area, area }).collect()
+}
+
+/// Friction needed and area at the vertices of a round tube more than 10 mm from its ends, without
+/// any nodal force in space: the tube is unrolled round each place, where the mean divergence of the
+/// stress σ (force per present width) with the weight ψ is −∫ σ ∇ψ / ∫ ψ, and the mean pressure
+/// ∫ ψ σ_hoop / r / ∫ ψ. ψ is 1 − (d/10)² at the vertices and linear between.
+fn frictions(worn: &WornObj, tube: &Tube, stiffness: f64) -> Vec<(f64, f64)> {
+    let flat = |p: DVec3, from: f64| {
+        let turn = (p.y.atan2(p.x) - from + PI).rem_euclid(TAU) - PI;
+        DVec2::new(tube.radius * turn, p.z)
+    };
+    let azimuth = |p: DVec3| p.y.atan2(p.x);
+    // Area on the limb and the rows of σ of each triangle, x round the tube, y along it.
+    let stresses: Vec<(f64, [DVec2; 2])> = worn
+        .faces
+        .iter()
+        .map(|face| {
+            let from = azimuth(worn.v[face[0].0]);
+            let p = face.map(|(v, _)| flat(worn.v[v], from));
+            let q = face.map(|(_, vt)| worn.vt[vt]);
+            let (a, b) = (q[1] - q[0], q[2] - q[0]);
+            let (u, v) = (p[1] - p[0], p[2] - p[0]);
+            let columns = [u * b.y - v * a.y, v * a.x - u * b.x].map(|c| c / a.perp_dot(b));
+            let stretch = u.perp_dot(v) / a.perp_dot(b);
+            let rows = columns.iter().fold([DVec2::ZERO; 2], |[x, y], c| {
+                let pull = stiffness * (c.length() - 1.0).max(0.0) / c.length() / stretch;
+                [x + pull * c.x * *c, y + pull * c.y * *c]
+            });
+            (0.5 * u.perp_dot(v), rows)
+        })
+        .collect();
+    let mut areas = vec![0.0; worn.v.len()];
+    for (face, (area, _)) in worn.faces.iter().zip(&stresses) {
+        face.iter().for_each(|&(v, _)| areas[v] += area / 3.0);
+    }
+    (0..worn.v.len())
+        .filter(|&v| worn.v[v].z > 10.0 && worn.v[v].z < tube.length - 10.0)
+        .map(|v| {
+            let from = azimuth(worn.v[v]);
+            let (mut left_over, mut pressing) = (DVec2::ZERO, 0.0);
+            for (face, (area, [x, y])) in worn.faces.iter().zip(&stresses) {
+                let corners = face.map(|(k, _)| worn.v[k]);
+                let weights =
+                    corners.map(|p| (1.0 - p.distance_squared(worn.v[v]) / 100.0).max(0.0));
+                let whole: f64 = weights.iter().sum();
+                if whole == 0.0 {
+                    continue;
+                }
+                let p = corners.map(|p| flat(p, from));
+                let gradient = weights[0] * (p[2] - p[1]).perp()
+                    + weights[1] * (p[0] - p[2]).perp()
+                    + weights[2] * (p[1] - p[0]).perp();
+                left_over -= 0.5 * DVec2::new(x.dot(gradient), y.dot(gradient));
+                pressing += area * whole / 3.0 * x.x / tube.radius;
+            }
+            (left_over.length() / pressing, areas[v])
+        })
+        .collect()
 }
 
 #[track_caller]
@@ -94,12 +153,22 @@ fn the_figures_of_a_tube_are_those_of_its_pattern() {
     let area = number(&field["area_over_limit_mm2"]);
     assert!(area >= over(2.25 * 1.03) && area <= over(2.25 / 1.03), "{area} {}", over(2.25));
     assert_eq!(codes(&report).contains(&"field_over_limit"), most > 2.25);
-    // A tube lifts nothing. All of it but 10 mm at the ends is judged, and threads round it are
-    // geodesics: what friction is left is the fit's.
+    // A tube lifts nothing, and all of it but 10 mm at the ends is judged.
     assert_eq!(number(&field["area_lifting_mm2"]), 0.0);
     let judged = number(&field["friction_area_mm2"]) / total;
     assert!((judged - 80.0 / 100.0).abs() < 0.04, "{judged}");
-    assert!(number(&field["friction_p95"]) < 0.15, "{field}");
+    let mut needed: Vec<(f64, f64)> = frictions(&bench.worn(), &tube, 0.5);
+    needed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let stated: f64 = needed.iter().map(|(_, area)| area).sum();
+    let mut below = 0.0;
+    let p95 = needed.iter().find(|(_, area)| {
+        below += area;
+        below >= 0.95 * stated
+    });
+    let (p95, most) = (p95.expect("somewhere").0, needed[needed.len() - 1].0);
+    assert!(p95 > 0.1, "threads of different lengths side by side pull at each other: {p95}");
+    assert!((number(&field["friction_p95"]) / p95 - 1.0).abs() < 0.03, "{p95} {field}");
+    assert!((number(&field["friction_max"]) / most - 1.0).abs() < 0.03, "{most} {field}");
     // Warp of 0.5 N/mm stretched by 0.5 at most: 8.33 kPa on 30 mm.
     for pressure in report["pressures"].as_array().expect("pressures") {
         let low = number(&pressure["reachable_kpa"][0]);
