@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::export::Drawing;
 use crate::field::{Field, FieldInput, everywhere};
 use crate::fit::{Fit, FitInput, diffuse};
-use crate::geometry::{Curvature, Locator, Measures, guard_unit, measure};
+use crate::geometry::{Curvature, Girth, Locator, Measures, guard_unit, measure};
 use crate::mapping::Mapping;
 use crate::parameterize::{initial, upright};
 use crate::parameters::{Method, Parameters};
@@ -31,6 +31,8 @@ pub struct Flattening {
     pub coordinates: Vec<DVec2>,
     /// Strain, pressure and friction at its vertices.
     pub field: Field,
+    /// The girths of the covered limb, from the end near the body.
+    pub girths: Vec<Girth>,
     /// The pattern as a drawing.
     pub drawing: Drawing,
     /// Every figure and warning.
@@ -147,7 +149,8 @@ pub fn flatten(
     };
     let report = compose(&found, warnings);
     let drawing = draw(&found, &cut, &coordinates, &markers);
-    Ok(Flattening { disk: cut.disk, coordinates, field, drawing, report })
+    let girths = measures.girths;
+    Ok(Flattening { disk: cut.disk, coordinates, field, girths, drawing, report })
 }
 
 /// How the design and the parameters want the triangles read.

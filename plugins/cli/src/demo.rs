@@ -67,7 +67,7 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         out.display()
     );
     let mut files = vec![limb, wish];
-    files.extend(flatten::files(&flattening, &design, &Parameters::default()));
+    files.extend(flatten::files(&flattening, &design));
     output::write_together(out, &files)?;
     flatten::warn(&flattening.report);
     if !quiet {

@@ -8,7 +8,6 @@ use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 use serde::Serialize;
 use wovenfit_core::design::{Design, Limits};
 use wovenfit_core::export::{flat_obj, json_text, pattern_svg, worn_obj};
-use wovenfit_core::geometry::measure;
 use wovenfit_core::page::{PageInput, report_html};
 use wovenfit_core::parameters::Parameters;
 use wovenfit_core::report::{PressureReport, Report, pressure_table};
@@ -119,7 +118,7 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let read = start.elapsed();
     let flattening = fit(&mesh, &design, &parameters, quiet)?;
     let fitted = start.elapsed();
-    let files = files(&flattening, &design, &parameters);
+    let files = files(&flattening, &design);
     output::write_together(out, &files)?;
     let total = start.elapsed();
 
@@ -167,14 +166,14 @@ pub fn fit(
 pub const PAGE: &str = "report.html";
 
 /// The files of a pattern.
-pub fn files(flattening: &Flattening, design: &Design, parameters: &Parameters) -> Vec<Named> {
-    let Flattening { disk, coordinates, field, drawing, report } = flattening;
+pub fn files(flattening: &Flattening, design: &Design) -> Vec<Named> {
+    let Flattening { disk, coordinates, field, girths, drawing, report } = flattening;
     let page = PageInput {
         disk,
         coordinates,
         drawing,
         report,
-        girths: &measure(disk, parameters.girth_step).girths,
+        girths,
         warp_strain: &field.warp_strain,
         pressure_kpa: Some(&field.pressure_kpa),
         limit_kpa: design.limits.max_kpa.unwrap_or(Limits::WARN_KPA),
