@@ -242,8 +242,8 @@ fn judge_one(
             pressure_model,
             parameters,
             &curvature,
-            warp_reached,
-            weft_reached,
+            got_kpa,
+            [warp_reached, weft_reached],
         )
     });
     Judgement {
@@ -281,8 +281,8 @@ fn why(
     pressure_model: PressureModel,
     parameters: &Parameters,
     curvature: &LocalCurvature,
-    reached: f64,
-    weft: f64,
+    got_kpa: f64,
+    [reached, weft]: [f64; 2],
 ) -> Reason {
     let pressing = pressing_curvature(pressure_model, curvature);
     if pressing <= FLAT_CURVATURE {
@@ -329,11 +329,11 @@ fn why(
     let off = reached - given;
     if off.abs() <= SAME_STRAIN * given {
         let stretch = Stretch::without_shear(reached, weft);
-        let with = pressure_kpa(pressure_model, fabric, curvature, &stretch);
         let slack = Stretch { weft: 0.0, ..stretch };
-        let from_weft = with - pressure_kpa(pressure_model, fabric, curvature, &slack);
-        let missed = with - annotations[k].kpa;
-        return if from_weft * missed > 0.0 && from_weft.abs() > 0.5 * missed.abs() {
+        let from_weft = pressure_kpa(pressure_model, fabric, curvature, &stretch)
+            - pressure_kpa(pressure_model, fabric, curvature, &slack);
+        let over = got_kpa - annotations[k].kpa;
+        return if over > 0.0 && from_weft > 0.5 * over {
             Reason::WeftTension { strain: weft, kpa: from_weft }
         } else {
             Reason::BetweenThreads { spacing: brace.model.spacing() }
