@@ -67,7 +67,9 @@ impl Corrections {
         for thread in &targets.threads {
             let (Some(wanted), Some(asked)) = (thread.wanted, thread.asked) else { continue };
             let wanted = wanted.clamp(0.0, fabric.max_strain);
-            let Some((reached, springs)) = row_strain(model, thread.row) else { continue };
+            let Some((reached, springs)) = model.thread_strain(SpringKind::Warp, thread.row) else {
+                continue;
+            };
             // Where threads lie too close to differ, what smoothing has left of the wish.
             let error = wanted + (thread.fitted - asked) - reached;
             let tau = (springs as f64 / PI).powi(2) / (lambda * fabric.warp);
@@ -86,14 +88,4 @@ impl Corrections {
             self.settled &= at_limit || error.abs() <= (SETTLED.0 * wanted).max(SETTLED.1);
         }
     }
-}
-
-/// Strain of a row of warp springs taken together, and their number.
-fn row_strain(model: &WovenModel, row: i32) -> Option<(f64, usize)> {
-    let (mut length, mut springs) = (0.0, 0);
-    for spring in model.springs().filter(|s| s.kind == SpringKind::Warp && s.a.i == row) {
-        length += spring.length;
-        springs += 1;
-    }
-    (springs > 0).then(|| (length / (springs as f64 * model.spacing()) - 1.0, springs))
 }

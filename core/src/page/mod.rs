@@ -15,7 +15,6 @@ mod plan;
 mod quantity;
 mod raster;
 mod scale;
-mod strain;
 mod tables;
 
 use glam::DVec2;
@@ -25,7 +24,6 @@ use self::html::{Tag, shown, tag};
 use self::limb::Limb;
 use self::plan::Plan;
 use self::quantity::{Quantity, vertex_areas};
-pub use self::strain::warp_strain;
 use crate::export::Drawing;
 use crate::geometry::Girth;
 use crate::report::Report;

@@ -6,18 +6,12 @@ use super::draw::{Anchor, INK, drawing, line, rectangle, text};
 use super::html::{Tag, shown, tag};
 use super::picture::{Field, INSIDE, NEGATIVE, UNKNOWN};
 use super::scale::{Bands, Scale, css, weighted_percentile};
+use crate::field::{COMPRESSED_BELOW, LIFTING_BELOW_KPA};
 use crate::surface::{Surface, VertexId};
 use crate::units::mmhg_from_kpa;
 
 /// Bands of less than a per cent of strain, or a mmHg, would show noise.
 const LEAST_STEP: f64 = 1.0;
-
-/// Strain below which fabric counts as compressed, in per cent: half a per cent is eased in by hand.
-const COMPRESSED_BELOW: f64 = -0.5;
-
-/// Pressure below which fabric counts as lifting off, in kPa: tensions that pull no harder than this
-/// are those of a fabric that only lies there.
-const LIFTING_BELOW_KPA: f64 = -0.01;
 
 /// A value at every vertex that pictures are coloured by.
 #[derive(Debug, Clone)]
@@ -48,7 +42,7 @@ impl Quantity {
             name: "Warp strain",
             unit: "%",
             negative: "compressed",
-            bands: bands(Scale::Cividis, &values, weights, COMPRESSED_BELOW),
+            bands: bands(Scale::Cividis, &values, weights, 100.0 * COMPRESSED_BELOW),
             range: range(&values, weights),
             values,
             limit: None,

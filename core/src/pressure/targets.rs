@@ -128,7 +128,9 @@ pub fn target_strains(
             kpa: annotations[k].kpa,
             curvature: curvatures[k],
             weft_strain: match corrections {
-                Some(_) => column_strain(model, nodes[k].j).unwrap_or(fabric.weft_strain),
+                Some(_) => model
+                    .thread_strain(SpringKind::Weft, nodes[k].j)
+                    .map_or(fabric.weft_strain, |(strain, _)| strain),
                 None => fabric.weft_strain,
             },
         })
@@ -164,16 +166,6 @@ pub fn target_strains(
     let strains = (first..=last).map(|row| function.at(parameter(row))).collect();
     let rest = RestLengths::new(model.spacing(), first, strains, fabric.weft_strain);
     Ok(Targets { rest, function, threads, nodes, wishes })
-}
-
-/// Strain of a column of weft springs taken together.
-fn column_strain(model: &WovenModel, column: i32) -> Option<f64> {
-    let (mut length, mut springs) = (0.0, 0);
-    for spring in model.springs().filter(|s| s.kind == SpringKind::Weft && s.a.j == column) {
-        length += spring.length;
-        springs += 1;
-    }
-    (springs > 0).then(|| length / (f64::from(springs) * model.spacing()) - 1.0)
 }
 
 /// Direction of the thread through a node, from the neighbours on both sides where there are two.

@@ -241,6 +241,20 @@ impl WovenModel {
         loose.len()
     }
 
+    /// Strain of a whole thread of warp (a row) or weft (a column) springs, and their number.
+    #[must_use]
+    pub fn thread_strain(&self, kind: SpringKind, thread: i32) -> Option<(f64, usize)> {
+        let on_it = |s: &Spring| {
+            s.kind == kind && thread == if kind == SpringKind::Weft { s.a.j } else { s.a.i }
+        };
+        let (mut length, mut springs) = (0.0, 0);
+        for spring in self.springs().filter(on_it) {
+            length += spring.length;
+            springs += 1;
+        }
+        (springs > 0).then(|| (length / (springs as f64 * self.spacing) - 1.0, springs))
+    }
+
     /// Every spring, row by row.
     pub fn springs(&self) -> impl Iterator<Item = Spring> + '_ {
         let up = self.columns;
