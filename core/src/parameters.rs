@@ -11,6 +11,8 @@ use crate::units::LengthUnit;
 /// How the woven model is fitted.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
+    /// Pattern coordinates of the surface's vertices, moved by Newton steps: for every use.
+    Newton,
     /// The paper's reference: woven nodes on the surface, moved along geodesics by diffusion.
     Diffusion,
 }
@@ -143,7 +145,8 @@ fn chosen<T: Copy + PartialEq>(value: T, choices: &[(&'static str, T)]) -> Strin
         .map_or_else(String::new, |(name, _)| (*name).to_owned())
 }
 
-const METHODS: [(&str, Method); 1] = [("diffusion", Method::Diffusion)];
+const METHODS: [(&str, Method); 2] =
+    [("newton", Method::Newton), ("diffusion", Method::Diffusion)];
 
 const ESTIMATES: [(&str, CurvatureEstimate); 2] =
     [("scale", CurvatureEstimate::Scale), ("meyer", CurvatureEstimate::Meyer)];
@@ -250,13 +253,31 @@ parameters! {
         "Pressure is tension times curvature, so this is the scale at which pressure is stated. A \
          smaller radius follows bony crests and the scanner's noise alike; a larger one smooths \
          both away.";
-    method: Method = Method::Diffusion, "", names(&METHODS),
-        "How the woven model is fitted.",
-        "`diffusion` is the paper's method: woven nodes on the surface, moved along geodesics.";
+    method: Method = Method::Newton, "", names(&METHODS),
+        "How the fabric is fitted.",
+        "`newton` moves the pattern coordinates of the surface's vertices to the minimum of the \
+         paper's energy, with seams that can be sewn. `diffusion` is the paper's method, the \
+         reference: woven nodes on the surface, moved along geodesics; far slower, and its seams \
+         do not match.";
+    newton_tolerance: f64 = 0.01, "mm", Kind::Number(1e-9..=1.0),
+        "Converged when a whole Newton step moves no point of the pattern farther than this.",
+        "The step is the gradient of the energy scaled by its Hessian: what is still missing to \
+         the minimum. A pattern is cut to some tenths of a millimetre.";
+    newton_steps: u64 = 100, "", Kind::Integer(1..=10_000),
+        "Most Newton steps.",
+        "Limbs need about ten. A run that hits it says `not converged` in the table, the report \
+         and the warnings.";
+    equal_seams: bool = true, "", Kind::Switch,
+        "Hold sewn edges at equal lengths in the pattern.",
+        "Without it the two sides of a seam come out up to a fifth apart, and the pattern cannot \
+         be sewn without easing. It costs some per cent more energy; the report says how much. \
+         The diffusion cannot do it.";
     spacing: f64 = 5.0, "mm", Kind::Number(0.5..=30.0),
         "Distance between neighbouring threads of the woven model at rest.",
-        "The model's threads stand for many real ones. Halving it follows the shape more closely \
-         and takes about sixteen times as long.";
+        "The model's threads stand for many real ones. With `diffusion` halving it follows the \
+         shape more closely and takes about sixteen times as long. With `newton` it is only the \
+         length over which a shortened thread is kept from buckling, and points closer than half \
+         of it along weft share a thread.";
     start_warp: f64 = 0.75, "", Kind::Number(0.4..=1.0),
         "Scale of the initial parameterization along warp.",
         "The paper's r: the fabric starts stretched along warp, because springs settle more \

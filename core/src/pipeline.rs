@@ -7,7 +7,9 @@ use crate::design::Design;
 use crate::error::Error;
 use crate::export::Drawing;
 use crate::field::{Field, FieldInput, everywhere};
-use crate::fit::{Fit, FitInput, diffuse};
+use crate::fit::diffusion::diffuse;
+use crate::fit::newton::Prepared;
+use crate::fit::{Fit, FitError, FitInput};
 use crate::geometry::{Curvature, Girth, Locator, Measures, guard_unit, measure};
 use crate::mapping::Mapping;
 use crate::parameterize::{initial, upright};
@@ -54,8 +56,8 @@ pub(crate) struct Found<'a> {
     pub disk: &'a Surface,
     pub coordinates: &'a [DVec2],
     pub field: &'a Field,
-    /// Where the woven model's row 0 lies in the pattern, in mm.
-    pub row_zero: f64,
+    /// Where the fit's y = 0 lies in the pattern, in mm.
+    pub y_zero: f64,
 }
 
 /// From a scanned limb and wanted pressures to a planar pattern.
@@ -103,11 +105,7 @@ pub fn flatten(
 
     begin(Stage::Fit)?;
     let fit = fit(&cut, &omega.coordinates, &markers, &annotations, design, parameters, progress)?;
-
-    begin(Stage::Mapping)?;
-    let mapped = Mapping::new(&cut.disk, &fit.model).vertices()?;
-    let mapped = upright(&mapped, &cut.disk, &markers.points)?;
-    let (coordinates, corner) = to_origin(mapped);
+    let (coordinates, corner) = to_origin(&fit.coordinates);
 
     begin(Stage::Report)?;
     let pattern = pattern(&cut, &coordinates);
@@ -116,7 +114,8 @@ pub fn flatten(
         disk: &cut.disk,
         coordinates: &coordinates,
         free_edges: &free_edges,
-        model: &fit.model,
+        woven: fit.woven.as_ref(),
+        spacing: parameters.spacing,
         targets: &fit.targets,
         converged: fit.stopped.converged(),
     };
@@ -145,7 +144,7 @@ pub fn flatten(
         disk: &cut.disk,
         coordinates: &coordinates,
         field: &field,
-        row_zero: -corner.y,
+        y_zero: -corner.y,
     };
     let report = compose(&found, warnings);
     let drawing = draw(&found, &cut, &coordinates, &markers);
@@ -215,7 +214,7 @@ fn annotate(
     Ok(annotations)
 }
 
-/// Fits the woven model by the method chosen.
+/// Fits the fabric by the method chosen.
 fn fit(
     cut: &CutSurface,
     omega: &[DVec2],
@@ -227,6 +226,7 @@ fn fit(
 ) -> Result<Fit, Error> {
     let input = FitInput {
         disk: &cut.disk,
+        seams: &cut.seams,
         omega,
         markers: &markers.points,
         annotations,
@@ -235,14 +235,30 @@ fn fit(
         parameters,
     };
     match parameters.method {
-        Method::Diffusion => Ok(diffuse(&input, progress)?),
+        Method::Newton => {
+            let prepared = Prepared::new(&cut.disk, &cut.seams, parameters.equal_seams)?;
+            Ok(prepared.fit(&input, None, progress)?)
+        }
+        Method::Diffusion => {
+            let rest = diffuse(&input, progress)?;
+            progress.report(Stage::Mapping, 0.0, None);
+            let mapped = Mapping::new(&cut.disk, &rest.model).vertices().map_err(FitError::from)?;
+            let coordinates = upright(&mapped, &cut.disk, &markers.points)?;
+            let rise = mean_y(&coordinates) - mean_y(&mapped);
+            Ok(rest.with_coordinates(coordinates, rise))
+        }
     }
 }
 
+/// The mean y of a plane's points; turning by a hair about them does not change it.
+fn mean_y(plane: &[DVec2]) -> f64 {
+    plane.iter().map(|p| p.y).sum::<f64>() / plane.len().max(1) as f64
+}
+
 /// The plane shifted so that the lower left corner of its extent is the origin, and that corner.
-fn to_origin(plane: Vec<DVec2>) -> (Vec<DVec2>, DVec2) {
+fn to_origin(plane: &[DVec2]) -> (Vec<DVec2>, DVec2) {
     let corner = plane.iter().copied().reduce(DVec2::min).unwrap_or_default();
-    (plane.into_iter().map(|p| p - corner).collect(), corner)
+    (plane.iter().map(|&p| p - corner).collect(), corner)
 }
 
 /// The pattern as a drawing, with the wanted pressures as labels.

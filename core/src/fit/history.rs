@@ -32,6 +32,8 @@ pub enum Stopped {
     Tolerance,
     /// The energy no longer falls.
     Plateau,
+    /// The gradient, scaled by the Hessian, fell below its threshold.
+    Gradient,
     /// The largest number of steps was reached: not converged.
     MaxIterations,
 }
@@ -43,6 +45,7 @@ impl Stopped {
         match self {
             Self::Tolerance => "strain_tolerance",
             Self::Plateau => "plateau",
+            Self::Gradient => "gradient",
             Self::MaxIterations => "max_iterations",
         }
     }

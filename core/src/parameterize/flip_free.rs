@@ -268,7 +268,7 @@ impl<'a> Problem<'a> {
 }
 
 /// The least positive root of a t² + b t + c with c > 0; infinite if there is none.
-fn first_root(a: f64, b: f64, c: f64) -> f64 {
+pub(crate) fn first_root(a: f64, b: f64, c: f64) -> f64 {
     let under = b * b - 4.0 * a * c;
     if under < 0.0 {
         return f64::INFINITY;

@@ -13,6 +13,8 @@ mod sparse;
 mod tests;
 
 pub use quality::{MapQuality, flipped_triangles, map_quality, outline_crossings, signed_area};
+pub(crate) use flip_free::first_root;
+pub(crate) use rest::rest_triangles;
 pub use sparse::{Factor, Pattern, SparseError};
 
 use glam::{DVec2, DVec3};

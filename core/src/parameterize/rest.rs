@@ -14,13 +14,13 @@ const ROOM: f64 = 1e-5;
 
 /// The shape of a triangle laid in the plane.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct RestTriangle {
+pub(crate) struct RestTriangle {
     /// Its corners, counter-clockwise, the first at the origin, the second on the x axis, in mm.
     pub(super) corners: [DVec2; 3],
     /// Cotangents of the angles at its corners.
     pub(super) cotangents: [f64; 3],
     /// Its area, in mm².
-    pub(super) area: f64,
+    pub(crate) area: f64,
 }
 
 impl RestTriangle {
@@ -43,14 +43,14 @@ impl RestTriangle {
     }
 
     /// Gradients of the corners' hat functions, in 1/mm.
-    pub(super) fn gradients(&self) -> [DVec2; 3] {
+    pub(crate) fn gradients(&self) -> [DVec2; 3] {
         let p = self.corners;
         std::array::from_fn(|k| (p[(k + 2) % 3] - p[(k + 1) % 3]).perp() / (2.0 * self.area))
     }
 }
 
 /// The shapes of all triangles of a surface, mollified where it needs to be.
-pub(super) fn rest_triangles(surface: &Surface) -> Vec<RestTriangle> {
+pub(crate) fn rest_triangles(surface: &Surface) -> Vec<RestTriangle> {
     let room = ROOM * surface.mean_edge_length();
     let lengths: Vec<[f64; 3]> = surface
         .triangle_ids()

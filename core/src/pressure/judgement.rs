@@ -5,8 +5,8 @@ use glam::{DVec2, DVec3};
 use super::formula::{
     FLAT_CURVATURE, LocalCurvature, Stretch, Wish, pressing_curvature, pressure_kpa, warp_strain,
 };
-use super::reached::{Along, patch, thread_strain};
-use super::{Annotation, Targets};
+use super::reached::{Reached, reached};
+use super::{Annotation, Targets, Woven};
 use crate::design::{Fabric, PressureModel};
 use crate::geometry::closest_on_triangle;
 use crate::parameters::Parameters;
@@ -154,8 +154,6 @@ pub struct Judgement {
     pub warp_strain: f64,
     /// Strain of the weft thread through the point.
     pub weft_strain: f64,
-    /// The row of its closest node.
-    pub row: i32,
     /// Place in the pattern, in mm.
     pub place: DVec2,
     /// Why it was missed; `None` where it was met.
@@ -181,8 +179,10 @@ pub struct Brace<'a> {
     pub coordinates: &'a [DVec2],
     /// The boundary half-edges that are not sewn.
     pub free_edges: &'a [HalfEdgeId],
-    /// The woven nodes.
-    pub model: &'a WovenModel,
+    /// The woven nodes, where the fit has them.
+    pub woven: Option<&'a Woven>,
+    /// Distance of neighbouring threads at rest, in mm.
+    pub spacing: f64,
     /// The wanted strains.
     pub targets: &'a Targets,
     /// Whether the fit came to rest.
@@ -198,61 +198,42 @@ pub fn judge(
     pressure_model: PressureModel,
     parameters: &Parameters,
 ) -> Vec<Judgement> {
+    let radius = parameters.curvature_radius;
+    let reached = reached(brace.disk, brace.coordinates, annotations, radius);
     (0..annotations.len())
-        .map(|k| judge_one(brace, annotations, k, fabric, pressure_model, parameters))
+        .map(|k| judge_one(brace, annotations, &reached, k, fabric, pressure_model, parameters))
         .collect()
 }
 
 fn judge_one(
     brace: &Brace<'_>,
     annotations: &[Annotation],
+    reached: &[Reached],
     k: usize,
     fabric: &Fabric,
     pressure_model: PressureModel,
     parameters: &Parameters,
 ) -> Judgement {
     let annotation = &annotations[k];
-    let place = annotation.point.interpolate(brace.disk, brace.coordinates);
-    let round =
-        patch(brace.disk, brace.coordinates, &annotation.point, parameters.curvature_radius);
-    let curvature = round.map_or(brace.targets.wishes[k].curvature, |patch| LocalCurvature {
-        warp: annotation.shape.normal_curvature(patch.warp),
-        weft: annotation.shape.normal_curvature(patch.weft),
-        mean: annotation.shape.mean(),
-    });
-    let local = round.map_or(Stretch::without_shear(0.0, 0.0), |patch| patch.stretch);
-    let strain = |along| thread_strain(brace.disk, brace.coordinates, place, along);
-    let warp_reached = strain(Along::Warp).unwrap_or(local.warp);
-    let weft_reached = strain(Along::Weft).unwrap_or(local.weft);
-    let along_threads = Stretch::without_shear(warp_reached, weft_reached);
-    let node = brace.targets.nodes[k];
-    let stretch = match pressure_model {
-        PressureModel::Laplace => along_threads,
-        PressureModel::Paper => springs_at(brace.model, node).unwrap_or(along_threads),
+    let Reached { place, curvature, threads, local } = reached[k];
+    let stretch = match (pressure_model, brace.woven) {
+        (PressureModel::Paper, Some(woven)) => {
+            springs_at(&woven.model, woven.nodes[k]).unwrap_or(threads)
+        }
+        _ => threads,
     };
     let got_kpa = pressure_kpa(pressure_model, fabric, &curvature, &stretch);
     let got_local_kpa = pressure_kpa(pressure_model, fabric, &curvature, &local);
     let most = (parameters.miss_tolerance * annotation.kpa).max(LEAST_MISS_KPA);
     let reason = ((got_kpa - annotation.kpa).abs() > most).then(|| {
-        why(
-            brace,
-            annotations,
-            k,
-            fabric,
-            pressure_model,
-            parameters,
-            &curvature,
-            got_kpa,
-            [warp_reached, weft_reached],
-        )
+        why(brace, annotations, reached, k, fabric, pressure_model, parameters, got_kpa)
     });
     Judgement {
         got_kpa,
         got_local_kpa,
         curvature,
-        warp_strain: warp_reached,
-        weft_strain: weft_reached,
-        row: node.i,
+        warp_strain: threads.warp,
+        weft_strain: threads.weft,
         place,
         reason,
     }
@@ -276,14 +257,15 @@ fn springs_at(model: &WovenModel, node: NodeIndex) -> Option<Stretch> {
 fn why(
     brace: &Brace<'_>,
     annotations: &[Annotation],
+    places: &[Reached],
     k: usize,
     fabric: &Fabric,
     pressure_model: PressureModel,
     parameters: &Parameters,
-    curvature: &LocalCurvature,
     got_kpa: f64,
-    [reached, weft]: [f64; 2],
 ) -> Reason {
+    let curvature = &places[k].curvature;
+    let (reached, weft) = (places[k].threads.warp, places[k].threads.weft);
     let pressing = pressing_curvature(pressure_model, curvature);
     if pressing <= FLAT_CURVATURE {
         return Reason::FlatOrHollow { curvature: pressing };
@@ -296,9 +278,7 @@ fn why(
     }
     // Below a hundredth of strain two wishes are one.
     let differs = |a: f64, b: f64| (a - b).abs() > (parameters.miss_tolerance * a).max(0.01);
-    let row = targets.nodes[k].i;
-    let apart =
-        |other: usize| f64::from((targets.nodes[other].i - row).abs()) * brace.model.spacing();
+    let apart = |other: usize| (places[other].place.y - places[k].place.y).abs();
     let wanting_else = |farthest: f64, pulls: &dyn Fn(f64) -> bool| -> Vec<usize> {
         (0..annotations.len())
             .filter(|&other| other != k && apart(other) <= farthest)
@@ -308,13 +288,7 @@ fn why(
             })
             .collect()
     };
-    // What the strain function gave the thread, correction aside.
-    let given = targets
-        .threads
-        .iter()
-        .find(|thread| thread.annotations.contains(&k))
-        .and_then(|thread| Some(thread.wanted? + thread.fitted - thread.asked?))
-        .unwrap_or(0.0);
+    let given = targets.given(k).unwrap_or(0.0);
     let others = wanting_else(parameters.row_spacing, &|_| true);
     if !others.is_empty() && differs(needed, given) {
         return Reason::ThreadConflict { others };
@@ -336,7 +310,7 @@ fn why(
         return if over > 0.0 && from_weft > 0.5 * over {
             Reason::WeftTension { strain: weft, kpa: from_weft }
         } else {
-            Reason::BetweenThreads { spacing: brace.model.spacing() }
+            Reason::BetweenThreads { spacing: brace.spacing }
         };
     }
     let others = wanting_else(NEIGHBOURHOOD, &|toward| toward * off > 0.0);

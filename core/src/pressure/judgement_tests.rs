@@ -94,8 +94,9 @@ fn judged_along(wishes: &[Wish], reached: f64, weft: f64, converged: bool) -> Ve
         disk: &disk,
         coordinates: &plane,
         free_edges: &free_edges,
-        model: &model,
-        targets: &targets,
+        woven: None,
+        spacing: model.spacing(),
+        targets: &targets.targets,
         converged,
     };
     judge(&brace, &annotations, &fabric, model_name, &Parameters::default())

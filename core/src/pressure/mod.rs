@@ -7,11 +7,15 @@ mod judgement_tests;
 mod reached;
 mod strain_function;
 mod targets;
+mod woven;
 
 pub use formula::{
     FLAT_CURVATURE, LocalCurvature, Stretch, Wish, pressing_curvature, pressure_kpa, warp_strain,
 };
 pub use judgement::{Brace, Judgement, Reason, judge};
-pub use reached::{Along, Patch, TriangleStretch, patch, thread_strain, triangle_stretch};
-pub use strain_function::{Datum, StrainForm, StrainFunction};
-pub use targets::{Annotation, TargetError, Targets, ThreadTarget, target_strains};
+pub use reached::{
+    Along, Patch, Reached, TriangleStretch, patch, reached, thread_strains, triangle_stretch,
+};
+pub use strain_function::{Datum, StrainCourse, StrainForm, StrainFunction};
+pub use targets::{Annotation, Targets, ThreadTarget};
+pub use woven::{TargetError, Woven, WovenTargets, target_strains};

@@ -6,8 +6,9 @@
 use std::collections::{BTreeSet, VecDeque};
 
 use glam::{DVec2, DVec3};
+use rayon::prelude::*;
 
-use super::Stretch;
+use super::{Annotation, LocalCurvature, Stretch};
 use crate::geometry::SurfacePoint;
 use crate::surface::{HalfEdgeId, Surface, TriangleId};
 
@@ -117,44 +118,129 @@ pub enum Along {
     Weft,
 }
 
-/// Strain of the one thread through a place of the pattern: its worn length over its rest length,
-/// less one. By Lemma 3 its tension, and so its strain, evens out to this along the whole thread.
-///
-/// The thread is the straight line of the pattern through `place`, as far as the pattern goes on
-/// both sides without a gap. `None` outside the pattern.
+/// What a pattern gives at an annotated point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reached {
+    /// Place in the pattern, in mm.
+    pub place: DVec2,
+    /// Curvature along the threads as they run.
+    pub curvature: LocalCurvature,
+    /// Strains of the whole threads through the point.
+    pub threads: Stretch,
+    /// Strains round the point.
+    pub local: Stretch,
+}
+
+/// What a pattern gives at every annotated point; strains round a point are means over `radius` mm.
 #[must_use]
-pub fn thread_strain(
+pub fn reached(
     disk: &Surface,
     coordinates: &[DVec2],
-    place: DVec2,
+    annotations: &[Annotation],
+    radius: f64,
+) -> Vec<Reached> {
+    let places: Vec<DVec2> =
+        annotations.iter().map(|a| a.point.interpolate(disk, coordinates)).collect();
+    let warp = thread_strains(disk, coordinates, &places, Along::Warp);
+    let weft = thread_strains(disk, coordinates, &places, Along::Weft);
+    annotations
+        .par_iter()
+        .enumerate()
+        .map(|(k, annotation)| {
+            let round = patch(disk, coordinates, &annotation.point, radius);
+            let shape = &annotation.shape;
+            let mean = shape.mean();
+            let curvature = round.map_or(LocalCurvature { warp: mean, weft: mean, mean }, |patch| {
+                LocalCurvature {
+                    warp: shape.normal_curvature(patch.warp),
+                    weft: shape.normal_curvature(patch.weft),
+                    mean,
+                }
+            });
+            let local = round.map_or(Stretch::without_shear(0.0, 0.0), |patch| patch.stretch);
+            let threads = Stretch::without_shear(
+                warp[k].unwrap_or(local.warp),
+                weft[k].unwrap_or(local.weft),
+            );
+            Reached { place: places[k], curvature, threads, local }
+        })
+        .collect()
+}
+
+/// Strains of the threads through places of the pattern: of each its worn length over its rest
+/// length, less one. By Lemma 3 a thread's tension, and so its strain, evens out to this along its
+/// whole length.
+///
+/// A thread is the straight line of the pattern through its place, as far as the pattern goes on
+/// both sides without a gap. `None` outside the pattern.
+#[must_use]
+pub fn thread_strains(
+    disk: &Surface,
+    coordinates: &[DVec2],
+    places: &[DVec2],
     along: Along,
-) -> Option<f64> {
+) -> Vec<Option<f64>> {
     // In coordinates (s along the thread, h across it).
     let turn = |p: DVec2| match along {
         Along::Warp => p,
         Along::Weft => DVec2::new(p.y, p.x),
     };
-    let place = turn(place);
-    let mut pieces: Vec<(f64, f64, f64)> = Vec::new();
-    for t in disk.triangle_ids() {
-        let plane = disk.triangle(t).map(|v| turn(coordinates[v.index()]) - place);
-        let corners = disk.corners(t);
-        let mut ends: Vec<(f64, DVec3)> = Vec::with_capacity(3);
-        for k in 0..3 {
-            let (a, b) = (plane[k], plane[(k + 1) % 3]);
-            // Half-open, so that a line through a vertex crosses each triangle twice or not at all.
-            if (a.y < 0.0) != (b.y < 0.0) {
-                let f = a.y / (a.y - b.y);
-                ends.push((a.x + f * (b.x - a.x), corners[k].lerp(corners[(k + 1) % 3], f)));
+    let mut lines: Vec<(f64, usize)> =
+        places.iter().enumerate().map(|(k, &p)| (turn(p).y, k)).collect();
+    lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+    /// Below this many triangles a task costs more than it saves.
+    const TRIANGLES_PER_TASK: usize = 4096;
+    let triangles: Vec<TriangleId> = disk.triangle_ids().collect();
+    // (line, from, to, worn length), in the triangles' order.
+    let crossed: Vec<(usize, f64, f64, f64)> = triangles
+        .par_chunks(TRIANGLES_PER_TASK)
+        .flat_map_iter(|chunk| {
+            let mut found = Vec::new();
+            for &t in chunk {
+                let plane = disk.triangle(t).map(|v| turn(coordinates[v.index()]));
+                let low = plane[0].y.min(plane[1].y).min(plane[2].y);
+                let high = plane[0].y.max(plane[1].y).max(plane[2].y);
+                let first = lines.partition_point(|&(h, _)| h < low);
+                for &(h, k) in lines[first..].iter().take_while(|&&(h, _)| h <= high) {
+                    let corners = disk.corners(t);
+                    let mut ends = [(0.0, DVec3::ZERO); 2];
+                    let mut count = 0;
+                    for i in 0..3 {
+                        let (a, b) = (plane[i], plane[(i + 1) % 3]);
+                        // Half-open, so that a line through a vertex crosses each triangle twice
+                        // or not at all.
+                        if (a.y < h) != (b.y < h) && count < 2 {
+                            let f = (a.y - h) / (a.y - b.y);
+                            let place = corners[i].lerp(corners[(i + 1) % 3], f);
+                            ends[count] = (a.x + f * (b.x - a.x), place);
+                            count += 1;
+                        }
+                    }
+                    if count == 2 {
+                        let [(s0, p0), (s1, p1)] = ends;
+                        found.push((k, s0.min(s1), s0.max(s1), p0.distance(p1)));
+                    }
+                }
             }
-        }
-        if let [(s0, p0), (s1, p1)] = ends[..] {
-            pieces.push((s0.min(s1), s0.max(s1), p0.distance(p1)));
-        }
+            found
+        })
+        .collect();
+    let mut pieces: Vec<Vec<(f64, f64, f64)>> = vec![Vec::new(); places.len()];
+    for (k, low, high, length) in crossed {
+        pieces[k].push((low, high, length));
     }
-    pieces.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     // A gap is an opening of the pattern; a hundredth of a typical edge is rounding.
     let tolerance = 0.01 * disk.mean_edge_length();
+    pieces
+        .into_iter()
+        .zip(places)
+        .map(|(pieces, &place)| one_thread(pieces, turn(place).x, tolerance))
+        .collect()
+}
+
+/// Strain of the run of pieces (from, to, worn length) that holds `at`.
+fn one_thread(mut pieces: Vec<(f64, f64, f64)>, at: f64, tolerance: f64) -> Option<f64> {
+    pieces.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let (mut rest, mut worn) = (0.0, 0.0);
     let mut reach = f64::NEG_INFINITY;
     let mut holds_place = false;
@@ -165,7 +251,7 @@ pub fn thread_strain(
             }
             (rest, worn) = (0.0, 0.0);
         }
-        holds_place |= low <= tolerance && high >= -tolerance;
+        holds_place |= low <= at + tolerance && high >= at - tolerance;
         rest += high - low;
         worn += length;
         reach = reach.max(high);
@@ -205,13 +291,17 @@ mod tests {
     #[test]
     fn a_threads_strain_is_its_whole_lengthening() {
         let (disk, plane) = strips();
+        let strain = |place, along| thread_strains(&disk, &plane, &[place], along)[0];
         for y in [7.0, 20.0, 33.0] {
-            let strain = thread_strain(&disk, &plane, DVec2::new(5.0, y), Along::Warp).unwrap();
+            let strain = strain(DVec2::new(5.0, y), Along::Warp).unwrap();
             assert!((strain - 23.0 / 60.0).abs() < 1e-12, "{y}: {strain}");
         }
-        let strain = thread_strain(&disk, &plane, DVec2::new(5.0, 7.0), Along::Weft).unwrap();
-        assert!((strain - 0.05).abs() < 1e-12);
-        assert_eq!(thread_strain(&disk, &plane, DVec2::new(70.0, 7.0), Along::Warp), None);
+        assert!((strain(DVec2::new(5.0, 7.0), Along::Weft).unwrap() - 0.05).abs() < 1e-12);
+        assert_eq!(strain(DVec2::new(70.0, 7.0), Along::Warp), None);
+        // Several at once, in any order.
+        let places = [20.0, 70.0, 3.0].map(|x| DVec2::new(x, 0.5 * x));
+        let together = thread_strains(&disk, &plane, &places, Along::Warp);
+        assert_eq!(together, places.map(|p| strain(p, Along::Warp)));
     }
 
     #[test]

@@ -164,6 +164,56 @@ impl StrainFunction {
     pub fn form(&self) -> StrainForm {
         self.form
     }
+
+    /// The function as polynomials between its knots, for many evaluations with derivatives.
+    #[must_use]
+    pub fn course(&self) -> StrainCourse {
+        let mut breaks = self.knots.clone();
+        breaks.dedup();
+        let control = self.control.len();
+        let pieces = breaks
+            .windows(2)
+            .map(|span| {
+                let (low, width) = (span[0], span[1] - span[0]);
+                // A cubic is given by four values; at thirds of the span, by Newton's differences.
+                let [a, b, c, d] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].map(|s| {
+                    let basis = basis(&self.knots, low + s * width, control);
+                    basis.iter().zip(&self.control).map(|(b, c)| b * c).sum::<f64>()
+                });
+                let third = 4.5 * (d - 3.0 * c + 3.0 * b - a);
+                let second = 4.5 * (c - 2.0 * b + a) - third;
+                let first = d - a - second - third;
+                [a, first / width, second / width.powi(2), third / width.powi(3)]
+            })
+            .collect();
+        StrainCourse { breaks, pieces, max_strain: self.max_strain }
+    }
+}
+
+/// A strain function as polynomials; see [`StrainFunction::course`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct StrainCourse {
+    breaks: Vec<f64>,
+    /// Coefficients of 1, s, s², s³ with s from the piece's beginning.
+    pieces: Vec<[f64; 4]>,
+    max_strain: f64,
+}
+
+impl StrainCourse {
+    /// ε(t), ε'(t) and ε''(t). Beyond the ends, and where the function is held at zero or at the
+    /// fabric's limit, it is constant.
+    #[must_use]
+    pub fn at(&self, t: f64) -> [f64; 3] {
+        let inside = t.clamp(0.0, 1.0);
+        let k = self.breaks[1..].partition_point(|&b| b <= inside).min(self.pieces.len() - 1);
+        let s = inside - self.breaks[k];
+        let [a, b, c, d] = self.pieces[k];
+        let value = a + s * (b + s * (c + s * d));
+        if value <= 0.0 || value >= self.max_strain || t != inside {
+            return [value.clamp(0.0, self.max_strain), 0.0, 0.0];
+        }
+        [value, b + s * (2.0 * c + s * 3.0 * d), 2.0 * c + 6.0 * s * d]
+    }
 }
 
 /// The clamped cubic knot vector with these inner knots.
@@ -296,6 +346,34 @@ mod tests {
         assert_eq!(f.form(), StrainForm::Smoothed);
         for d in &wanted[2..43] {
             assert!((f.at(d.t) - d.strain).abs() < 0.005, "{} {}", f.at(d.t), d.strain);
+        }
+    }
+
+    #[test]
+    fn the_course_is_the_function_with_its_derivatives() {
+        let many: Vec<(f64, f64)> =
+            (0..=30).map(|k| (f64::from(k) / 30.0, 0.2 + 0.1 * f64::from(k).sin())).collect();
+        for data in [
+            data(&[(0.1, 0.05), (0.3, 0.2), (0.55, 0.12), (0.9, 0.3)]),
+            data(&[(0.0, 0.1), (1.0, 0.3)]),
+            data(&[(0.4, 0.2)]),
+            data(&[(0.1, 0.3), (0.45, 0.0), (0.55, 0.0), (0.9, 0.3)]),
+            data(&many),
+        ] {
+            let f = StrainFunction::new(&data, 0.5, 0.05);
+            let course = f.course();
+            for k in 0..=200 {
+                let t = f64::from(k) / 200.0;
+                assert!((course.at(t)[0] - f.at(t)).abs() < 1e-12, "{t}");
+                let inside = (t + 0.0013).min(0.999);
+                let [_, first, second] = course.at(inside);
+                let h = 1e-5;
+                let [low, mid, high] = [-h, 0.0, h].map(|h| course.at(inside + h)[0]);
+                if low > 0.0 && high > 0.0 {
+                    assert!((first - (high - low) / (2.0 * h)).abs() < 1e-6);
+                    assert!((second - (high - 2.0 * mid + low) / (h * h)).abs() < 1e-2 * (1.0 + second.abs()));
+                }
+            }
         }
     }
 

@@ -12,6 +12,9 @@ use crate::pressure::ThreadTarget;
 use crate::units::{PER_M_PER_PER_MM, mmhg_from_kpa};
 use crate::warning::Warning;
 
+/// No more rows of the strain function are listed.
+const MOST_ROWS: f64 = 1000.0;
+
 /// The report of a run; `warnings` are those of the stages so far.
 pub(crate) fn compose(found: &Found<'_>, mut warnings: Vec<Warning>) -> Report {
     warnings.extend(fit_warnings(found));
@@ -77,8 +80,8 @@ fn fit(found: &Found<'_>) -> FitReport {
         energy_unit: ENERGY_UNIT,
         e_ssd: fit.misfit.e_ssd,
         springs: fit.misfit.springs,
-        nodes: fit.model.node_count(),
-        spacing_mm: fit.model.spacing(),
+        nodes: fit.history.last().map_or(0, |entry| entry.nodes),
+        spacing_mm: found.parameters.spacing,
         history: fit
             .history
             .iter()
@@ -95,16 +98,16 @@ fn fit(found: &Found<'_>) -> FitReport {
 }
 
 fn strain_function(found: &Found<'_>) -> StrainFunctionReport {
-    let (model, targets) = (&found.fit.model, &found.fit.targets);
-    let (first, last) = model.row_range().unwrap_or((0, 0));
-    let rows = f64::from((last - first).max(1));
+    let targets = &found.fit.targets;
+    let [low, high] = targets.extent;
+    let rows = ((high - low) / found.parameters.spacing).round().clamp(1.0, MOST_ROWS) as usize;
     StrainFunctionReport {
         form: targets.function.form().name(),
-        rows: (first..=last)
-            .map(|row| StrainRow {
-                y_mm: f64::from(row) * model.spacing() + found.row_zero,
-                t: f64::from(row - first) / rows,
-                strain: targets.rest.warp_strain(row),
+        rows: (0..=rows)
+            .map(|row| {
+                let t = row as f64 / rows as f64;
+                let y_mm = low + t * (high - low) + found.y_zero;
+                StrainRow { y_mm, t, strain: targets.function.at(t) }
             })
             .collect(),
         data: targets
@@ -144,7 +147,7 @@ fn pressures(found: &Found<'_>) -> Vec<PressureReport> {
                 &judgement.curvature,
                 judgement.weft_strain,
             )),
-            thread: Some(i64::from(judgement.row)),
+            thread: Some((judgement.place.y / found.parameters.spacing).round() as i64),
             reason: judgement
                 .reason
                 .as_ref()

@@ -67,7 +67,8 @@ impl Corrections {
         for thread in &targets.threads {
             let (Some(wanted), Some(asked)) = (thread.wanted, thread.asked) else { continue };
             let wanted = wanted.clamp(0.0, fabric.max_strain);
-            let Some((reached, springs)) = model.thread_strain(SpringKind::Warp, thread.row) else {
+            let row = (thread.y / model.spacing()).round() as i32;
+            let Some((reached, springs)) = model.thread_strain(SpringKind::Warp, row) else {
                 continue;
             };
             // Where threads lie too close to differ, what smoothing has left of the wish.

@@ -7,7 +7,7 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::energy::stiffness;
+use crate::fit::stiffness;
 use crate::design::Fabric;
 use crate::geometry::{SurfacePoint, walk};
 use crate::surface::Surface;

@@ -1,0 +1,345 @@
+//! The paper's energy of one triangle, with its first and second derivatives.
+//!
+//! One term of Eq. (4) per woven node means: weighted by area in the pattern. A cell of spacing L has
+//! one warp spring, one weft spring and two diagonals; with F = d(worn)/d(pattern) they measure
+//! L |F e_x|, L |F e_y| and L |F (e_x ± e_y)|, so that J_E per area of the pattern is
+//!
+//! W = ½ k_warp (|F e_x| − λ)² + ½ k_weft (|F e_y| − μ)² + ½ k_diag Σ± (|F (e_x ± e_y)| − ρ)²
+//!
+//! with λ = 1 + ε(t), μ = 1 + ε_weft and ρ = (λ² + μ²)^½ (Eqs. 5–7). The unknowns are the pattern
+//! coordinates (x, y), so it is written in their gradients on the worn triangle: with
+//! d = det(∇x, ∇y), the area in the pattern is d times the worn one and F e_x = rot ∇y / d,
+//! F e_y = rot ∇x / d, F (e_x ± e_y) = rot (∇x ∓ ∇y) / d. Each spring is then a residual
+//!
+//! r = n / √d − λ √d,  n the length of a combination of ∇x and ∇y,
+//!
+//! and the triangle's energy ½ A Σ k r², A its worn area. It grows without bound as d goes to 0 and as d
+//! goes to infinity, and so keeps triangles from turning over by itself. λ is a function of the
+//! triangle's mean weft coordinate c.
+
+use glam::DVec2;
+
+/// Number of local variables: ∇x (2), ∇y (2), c.
+const LOCAL: usize = 5;
+
+/// Stiffness of warp, weft and diagonal springs, in N/mm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Springs {
+    /// Along warp.
+    pub warp: f64,
+    /// Along weft.
+    pub weft: f64,
+    /// Along both diagonals.
+    pub diagonal: f64,
+}
+
+/// Wanted stretches of a triangle's threads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stretches {
+    /// λ = 1 + ε, and its first and second derivative along weft, in 1/mm and 1/mm².
+    pub warp: [f64; 3],
+    /// μ = 1 + ε_weft.
+    pub weft: f64,
+}
+
+/// Pattern coordinates' gradients on a worn triangle, in its own orthonormal frame.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gradients {
+    /// ∇x.
+    pub x: DVec2,
+    /// ∇y.
+    pub y: DVec2,
+}
+
+impl Gradients {
+    /// From the gradients of the corners' hat functions (1/mm) and the corners' pattern coordinates.
+    pub fn new(hats: &[DVec2; 3], corners: [DVec2; 3]) -> Self {
+        let mut g = Self { x: DVec2::ZERO, y: DVec2::ZERO };
+        for (hat, p) in hats.iter().zip(corners) {
+            g.x += p.x * *hat;
+            g.y += p.y * *hat;
+        }
+        g
+    }
+
+    /// Area in the pattern over worn area.
+    pub fn determinant(&self) -> f64 {
+        self.x.perp_dot(self.y)
+    }
+
+    /// Stretches |F e_x| and |F e_y|.
+    pub fn stretches(&self) -> [f64; 2] {
+        let d = self.determinant();
+        [self.y.length() / d, self.x.length() / d]
+    }
+}
+
+/// The four springs: stiffness, the combination α ∇x + β ∇y that they measure, and their wanted
+/// stretch with its derivatives along weft.
+fn springs(k: &Springs, wanted: &Stretches) -> [(f64, f64, f64, [f64; 3]); 4] {
+    let [l, l1, l2] = wanted.warp;
+    let mu = wanted.weft;
+    let rho = l.hypot(mu);
+    let rho1 = l * l1 / rho;
+    let rho2 = (l1 * l1 + l * l2 - rho1 * rho1) / rho;
+    let diagonal = [rho, rho1, rho2];
+    [
+        (k.warp, 0.0, 1.0, wanted.warp),
+        (k.weft, 1.0, 0.0, [mu, 0.0, 0.0]),
+        (k.diagonal, -1.0, 1.0, diagonal),
+        (k.diagonal, 1.0, 1.0, diagonal),
+    ]
+}
+
+/// Energy per worn area, in N/mm; infinite where the triangle is turned over.
+pub fn energy(g: &Gradients, k: &Springs, wanted: &Stretches) -> f64 {
+    let d = g.determinant();
+    if d.is_nan() || d <= 0.0 {
+        return f64::INFINITY;
+    }
+    springs(k, wanted)
+        .iter()
+        .map(|&(k, alpha, beta, [length, ..])| {
+            let n = (alpha * g.x + beta * g.y).length();
+            0.5 * k * (n - length * d).powi(2) / d
+        })
+        .sum()
+}
+
+/// Energy per worn area with its derivatives by ∇x, ∇y and c.
+#[derive(Debug, Clone, Copy)]
+pub struct Expansion {
+    /// First derivatives.
+    pub slope: [f64; LOCAL],
+    /// Second derivatives: Σ k ∂r ∂r, never negative, plus the share asked for of Σ k r ∂²r. Lower
+    /// triangle.
+    pub bend: [[f64; LOCAL]; LOCAL],
+}
+
+/// The expansion at a triangle that is not turned over; `share` (0 to 1) of the second-order part is
+/// added to the Gauss–Newton matrix.
+pub fn expand(g: &Gradients, k: &Springs, wanted: &Stretches, share: f64) -> Expansion {
+    let d = g.determinant();
+    let root = d.sqrt();
+    let inverse = 1.0 / root;
+    let by_d = 1.0 / d;
+    // ∂d by (∇x, ∇y).
+    let dd = [g.y.y, -g.y.x, -g.x.y, g.x.x];
+    let mut slope = [0.0; LOCAL];
+    let mut bend = [[0.0; LOCAL]; LOCAL];
+    for (k, alpha, beta, [length, length1, length2]) in springs(k, wanted) {
+        let v = alpha * g.x + beta * g.y;
+        let n = v.length();
+        let m = v / n;
+        let dn = [alpha * m.x, alpha * m.y, beta * m.x, beta * m.y];
+        let r = n * inverse - length * root;
+        // ∂r = ∂n / √d − ½ (n d^-3/2 + λ d^-½) ∂d − λ' √d ∂c.
+        let half = 0.5 * (n * by_d + length) * inverse;
+        let dr: [f64; LOCAL] = [
+            dn[0] * inverse - half * dd[0],
+            dn[1] * inverse - half * dd[1],
+            dn[2] * inverse - half * dd[2],
+            dn[3] * inverse - half * dd[3],
+            -length1 * root,
+        ];
+        for i in 0..LOCAL {
+            slope[i] += k * r * dr[i];
+            for j in 0..=i {
+                bend[i][j] += k * dr[i] * dr[j];
+            }
+        }
+        let kr = share * k * r;
+        if kr == 0.0 {
+            continue;
+        }
+        // n'' = w wᵀ / n with w the combination of the unit normal to v.
+        let across = m.perp();
+        let w = [alpha * across.x, alpha * across.y, beta * across.x, beta * across.y];
+        let ww = inverse / n;
+        let cross = 0.5 * inverse * by_d;
+        let square = (0.75 * n * by_d + 0.25 * length) * inverse * by_d;
+        for i in 0..4 {
+            for j in 0..=i {
+                bend[i][j] += kr
+                    * (ww * w[i] * w[j] - cross * (dn[i] * dd[j] + dd[i] * dn[j])
+                        + square * dd[i] * dd[j]);
+            }
+            bend[4][i] -= kr * 0.5 * length1 * inverse * dd[i];
+        }
+        // d'' couples ∇x.x with ∇y.y and ∇x.y with ∇y.x.
+        bend[3][0] -= kr * half;
+        bend[2][1] += kr * half;
+        bend[4][4] -= kr * length2 * root;
+    }
+    Expansion { slope, bend }
+}
+
+impl Expansion {
+    /// Adds ½ s (∇y · along)² or ½ s (∇x · along)²: a spring that turns a thread into a direction;
+    /// `felt` of it in the second derivatives.
+    pub fn turn(&mut self, g: &Gradients, of_y: bool, along: DVec2, s: f64, felt: f64) {
+        let (v, at) = if of_y { (g.y, 2) } else { (g.x, 0) };
+        let off = v.dot(along);
+        let [a, b] = along.to_array();
+        self.slope[at] += s * off * a;
+        self.slope[at + 1] += s * off * b;
+        self.bend[at][at] += felt * s * a * a;
+        self.bend[at + 1][at] += felt * s * a * b;
+        self.bend[at + 1][at + 1] += felt * s * b * b;
+    }
+
+    /// By the corners' pattern coordinates (x₀, y₀, x₁, y₁, x₂, y₂), times the worn area: gradient,
+    /// and Hessian as its lower triangle row by row.
+    pub fn at_corners(&self, hats: &[DVec2; 3], area: f64) -> Element {
+        const THIRD: f64 = 1.0 / 3.0;
+        let h = |i: usize, j: usize| if i >= j { self.bend[i][j] } else { self.bend[j][i] };
+        let mut force = [0.0; 6];
+        let mut columns = [[0.0; LOCAL]; 6];
+        for k in 0..3 {
+            let [a, b] = hats[k].to_array();
+            force[2 * k] = area * (self.slope[0] * a + self.slope[1] * b);
+            force[2 * k + 1] =
+                area * (self.slope[2] * a + self.slope[3] * b + self.slope[4] * THIRD);
+            for i in 0..LOCAL {
+                columns[2 * k][i] = area * (h(i, 0) * a + h(i, 1) * b);
+                columns[2 * k + 1][i] = area * (h(i, 2) * a + h(i, 3) * b + h(i, 4) * THIRD);
+            }
+        }
+        let mut stiffness = [0.0; 21];
+        let mut at = 0;
+        for row in 0..6 {
+            let [a, b] = hats[row / 2].to_array();
+            for column in &columns[..=row] {
+                stiffness[at] = if row % 2 == 0 {
+                    column[0] * a + column[1] * b
+                } else {
+                    column[2] * a + column[3] * b + column[4] * THIRD
+                };
+                at += 1;
+            }
+        }
+        Element { force, stiffness }
+    }
+}
+
+/// A triangle's part of the gradient (N) and of the Hessian (N/mm).
+#[derive(Debug, Clone, Copy)]
+pub struct Element {
+    /// By x₀, y₀, x₁, y₁, x₂, y₂.
+    pub force: [f64; 6],
+    /// Lower triangle, row by row.
+    pub stiffness: [f64; 21],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const K: Springs = Springs { warp: 0.7, weft: 1.9, diagonal: 0.11 };
+    const HATS: [DVec2; 3] =
+        [DVec2::new(-0.5, -0.21), DVec2::new(0.5, -0.12), DVec2::new(0.0, 0.33)];
+
+    /// ε(c) = 0.1 + 0.02 c − 0.003 c².
+    fn wanted(c: f64) -> Stretches {
+        let warp = [1.1 + 0.02 * c - 0.003 * c * c, 0.02 - 0.006 * c, -0.006];
+        Stretches { warp, weft: 1.03 }
+    }
+
+    fn corners(p: &[f64; 6]) -> [DVec2; 3] {
+        [0, 1, 2].map(|k| DVec2::new(p[2 * k], p[2 * k + 1]))
+    }
+
+    fn value(p: &[f64; 6]) -> f64 {
+        let c = (p[1] + p[3] + p[5]) / 3.0;
+        2.5 * energy(&Gradients::new(&HATS, corners(p)), &K, &wanted(c))
+    }
+
+    fn element(p: &[f64; 6], share: f64) -> Element {
+        let c = (p[1] + p[3] + p[5]) / 3.0;
+        let g = Gradients::new(&HATS, corners(p));
+        expand(&g, &K, &wanted(c), share).at_corners(&HATS, 2.5)
+    }
+
+    const AT: [f64; 6] = [0.1, 0.2, 1.9, 0.5, 0.8, 2.7];
+
+    #[test]
+    fn the_gradient_is_that_of_the_energy() {
+        let force = element(&AT, 1.0).force;
+        for i in 0..6 {
+            let step = |h: f64| {
+                let mut p = AT;
+                p[i] += h;
+                value(&p)
+            };
+            let difference = (step(1e-5) - step(-1e-5)) / 2e-5;
+            assert!((force[i] - difference).abs() < 1e-8, "{i}: {} {difference}", force[i]);
+        }
+    }
+
+    #[test]
+    fn the_hessian_is_that_of_the_energy() {
+        let stiffness = element(&AT, 1.0).stiffness;
+        let mut at = 0;
+        for row in 0..6 {
+            for column in 0..=row {
+                let step = |h: f64| {
+                    let mut p = AT;
+                    p[column] += h;
+                    element(&p, 1.0).force[row]
+                };
+                let difference = (step(1e-5) - step(-1e-5)) / 2e-5;
+                assert!((stiffness[at] - difference).abs() < 1e-7, "{row} {column}");
+                at += 1;
+            }
+        }
+    }
+
+    #[test]
+    fn without_the_second_order_part_the_hessian_is_never_negative() {
+        let stiffness = element(&AT, 0.0).stiffness;
+        let at = |i: usize, j: usize| {
+            let (i, j) = (i.max(j), i.min(j));
+            stiffness[i * (i + 1) / 2 + j]
+        };
+        let mut random = 1u64;
+        for _ in 0..200 {
+            let mut v = [0.0; 6];
+            for x in &mut v {
+                random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                *x = (random >> 40) as f64 / f64::from(1 << 24) - 0.5;
+            }
+            let square: f64 =
+                (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| v[i] * at(i, j) * v[j]).sum();
+            assert!(square > -1e-12, "{square}");
+        }
+    }
+
+    #[test]
+    fn a_triangle_with_its_wanted_strain_has_no_energy_and_one_turned_over_has_no_end_of_it() {
+        // Worn 1.2 times as wide and 1.03 times as high as at rest.
+        let g = Gradients { x: DVec2::new(1.0 / 1.2, 0.0), y: DVec2::new(0.0, 1.0 / 1.03) };
+        let wanted = Stretches { warp: [1.2, 0.0, 0.0], weft: 1.03 };
+        assert!(energy(&g, &K, &wanted) < 1e-30);
+        let over = Gradients { x: -g.x, ..g };
+        assert_eq!(energy(&over, &K, &wanted), f64::INFINITY);
+    }
+
+    #[test]
+    fn the_turning_spring_is_quadratic() {
+        let g = Gradients { x: DVec2::new(0.9, 0.1), y: DVec2::new(-0.2, 0.8) };
+        let along = DVec2::from_angle(0.3);
+        let wanted = wanted(0.0);
+        let with = |g: &Gradients| {
+            let mut e = expand(g, &K, &wanted, 0.0);
+            let before = e.slope;
+            e.turn(g, true, along, 0.7, 1.0);
+            [2, 3].map(|i| e.slope[i] - before[i])
+        };
+        let energy = |y: DVec2| 0.35 * y.dot(along).powi(2);
+        let slope = with(&g);
+        for (i, axis) in [DVec2::X, DVec2::Y].into_iter().enumerate() {
+            let difference = (energy(g.y + 1e-6 * axis) - energy(g.y - 1e-6 * axis)) / 2e-6;
+            assert!((slope[i] - difference).abs() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,356 @@
+//! The target strains of the threads, and their correction until the pressures are met.
+//!
+//! Eq. (3) gives every thread with annotated points the strain that its pressures need. At the
+//! minimum of J_E the thread takes, over its whole length, a little more or less than its target, since
+//! a doubly curved limb shares the misfit out. The paper stops there. Here the targets are
+//! corrected: the pressures P that the pattern gives are computed from the whole threads' strains, how
+//! they answer to each target is read off the fit's own Hessian (one solve a thread), and the targets
+//! that bring P nearest to what was asked (least squares, within [0, max_strain]) are taken:
+//!
+//! min ½ Σ_j (P_j + Σ_i S_ji Δ_i − P⁰_j)² + ½ α Σ_i (p_i (τ_i + Δ_i − w_i))²
+//!
+//! The second sum, with w the strain of Eq. (3) and p the pressure per strain of a thread by itself,
+//! keeps a thread that does not answer (at a free edge, say) from being pulled to the end of its range
+//! for nothing; α is so small that a thread which answers by half is off by 0.4 %.
+
+use glam::DVec2;
+
+use crate::design::{Fabric, PressureModel};
+use crate::fit::FitInput;
+use crate::pressure::{
+    FLAT_CURVATURE, LocalCurvature, Reached, Stretch, Targets, ThreadTarget, Wish,
+    pressing_curvature, pressure_kpa, reached, warp_strain,
+};
+
+/// α.
+const EFFORT: f64 = 1e-3;
+
+/// More threads than this (a painted field) are corrected each by itself, without the others' answer.
+const MOST_SOLVED: usize = 24;
+
+/// Pressures within this fraction of each other agree, or within this pressure (kPa): a tenth of what is
+/// promised.
+const AGREE: (f64, f64) = (0.002, 0.002);
+
+/// Target strains that change by less have settled.
+const SETTLED_STRAIN: f64 = 2e-4;
+
+/// The threads with annotated points and their targets.
+pub struct Threads<'a> {
+    input: &'a FitInput<'a>,
+    /// The annotations of each thread, from the lowest thread.
+    groups: Vec<Vec<usize>>,
+    /// Eq. (3) for each.
+    wanted: Vec<Option<f64>>,
+    /// The corrected target of each.
+    asked: Vec<Option<f64>>,
+    wishes: Vec<Wish>,
+    /// How the pressures answer to the targets, by thread then by annotation, in kPa per strain.
+    answers: Option<Vec<Vec<f64>>>,
+    settled: bool,
+    rounds: usize,
+}
+
+/// Corrections are given up after so many: a pressure that has not come by then does not.
+const MOST_ROUNDS: usize = 12;
+
+impl<'a> Threads<'a> {
+    /// The threads through the annotations at these pattern coordinates.
+    pub fn new(input: &'a FitInput<'a>, coordinates: &[DVec2]) -> Self {
+        let mut threads = Self {
+            input,
+            groups: Vec::new(),
+            wanted: Vec::new(),
+            asked: Vec::new(),
+            wishes: Vec::new(),
+            answers: None,
+            settled: !input.parameters.correct_pressures || input.annotations.is_empty(),
+            rounds: 0,
+        };
+        threads.find(coordinates, None);
+        threads
+    }
+
+    /// Continues with the targets of an earlier fit where it has one for the same annotation.
+    pub fn resume(&mut self, earlier: &Targets) {
+        for (group, asked) in self.groups.iter().zip(&mut self.asked) {
+            let before = earlier.threads.iter().find(|t| t.annotations == *group);
+            let (Some(before), Some(asked)) = (before, asked.as_mut()) else { continue };
+            if let (Some(wanted), Some(given)) = (before.wanted, before.asked) {
+                let limit = self.input.fabric.max_strain;
+                // The correction stays, the wish may have changed.
+                *asked = (*asked + given - wanted.clamp(0.0, limit)).clamp(0.0, limit);
+            }
+        }
+    }
+
+    /// Whether the pressures are as near to what was asked as they will come.
+    pub fn settled(&self) -> bool {
+        self.settled
+    }
+
+    fn reached(&self, coordinates: &[DVec2]) -> Vec<Reached> {
+        let FitInput { disk, annotations, parameters, .. } = self.input;
+        reached(disk, coordinates, annotations, parameters.curvature_radius)
+    }
+
+    /// Finds the threads anew, as long as none has been corrected: while the fabric still moves much.
+    pub fn follow(&mut self, coordinates: &[DVec2]) {
+        if self.rounds == 0 {
+            self.find(coordinates, None);
+        }
+    }
+
+    fn find(&mut self, coordinates: &[DVec2], known: Option<&[Reached]>) {
+        let FitInput { annotations, fabric, pressure_model, parameters, .. } = *self.input;
+        if annotations.is_empty() {
+            return;
+        }
+        let own;
+        let reached = match known {
+            Some(reached) => reached,
+            None => {
+                own = self.reached(coordinates);
+                &own
+            }
+        };
+        if self.rounds == 0 {
+            let mut order: Vec<usize> = (0..annotations.len()).collect();
+            order.sort_by(|&a, &b| reached[a].place.y.total_cmp(&reached[b].place.y).then(a.cmp(&b)));
+            self.groups.clear();
+            let mut first = f64::NEG_INFINITY;
+            for k in order {
+                let y = reached[k].place.y;
+                if y - first > 0.5 * parameters.spacing {
+                    self.groups.push(Vec::new());
+                    first = y;
+                }
+                if let Some(group) = self.groups.last_mut() {
+                    group.push(k);
+                }
+            }
+            for group in &mut self.groups {
+                group.sort_unstable();
+            }
+        }
+        self.wishes = annotations
+            .iter()
+            .zip(reached)
+            .map(|(annotation, reached)| Wish {
+                kpa: annotation.kpa,
+                curvature: reached.curvature,
+                // Lemma 4, or what the weft threads really have.
+                weft_strain: if parameters.correct_pressures {
+                    reached.threads.weft
+                } else {
+                    fabric.weft_strain
+                },
+            })
+            .collect();
+        self.wanted = self
+            .groups
+            .iter()
+            .map(|group| {
+                let points: Vec<Wish> = group.iter().map(|&k| self.wishes[k]).collect();
+                warp_strain(pressure_model, fabric, &points)
+            })
+            .collect();
+        if self.rounds == 0 {
+            let within = |strain: f64| strain.clamp(0.0, fabric.max_strain);
+            self.asked = self.wanted.iter().map(|wanted| wanted.map(within)).collect();
+        }
+    }
+
+    /// The targets at these pattern coordinates.
+    pub fn targets(&self, coordinates: &[DVec2]) -> Targets {
+        self.with(coordinates, &self.asked)
+    }
+
+    fn with(&self, coordinates: &[DVec2], asked: &[Option<f64>]) -> Targets {
+        let FitInput { disk, annotations, fabric, parameters, .. } = self.input;
+        let [low, high] = coordinates.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| {
+            [l.min(p.y), h.max(p.y)]
+        });
+        let place = |k: usize| annotations[k].point.interpolate(disk, coordinates).y;
+        let mut threads: Vec<ThreadTarget> = self
+            .groups
+            .iter()
+            .zip(&self.wanted)
+            .zip(asked)
+            .map(|((group, &wanted), &asked)| ThreadTarget {
+                y: group.iter().map(|&k| place(k)).sum::<f64>() / group.len() as f64,
+                t: 0.0,
+                annotations: group.clone(),
+                wanted,
+                asked,
+                fitted: 0.0,
+            })
+            .collect();
+        threads.sort_by(|a, b| a.y.total_cmp(&b.y));
+        // Two threads at one height are one datum to the strain function.
+        let apart = 1e-6 * (high - low);
+        for k in 1..threads.len() {
+            threads[k].y = threads[k].y.max(threads[k - 1].y + apart);
+        }
+        let wishes = self.wishes.clone();
+        Targets::new(threads, wishes, [low, high], fabric.max_strain, parameters.row_spacing)
+    }
+
+    /// Corrects the targets. `answer` gives how the pattern moves when the wanted strains change from
+    /// one set of targets to another. Whether any target changed.
+    pub fn correct(
+        &mut self,
+        coordinates: &[DVec2],
+        answer: impl Fn(&Targets, &Targets) -> Vec<DVec2>,
+    ) -> bool {
+        let here = self.reached(coordinates);
+        self.rounds += 1;
+        self.find(coordinates, Some(&here));
+        let FitInput { annotations, fabric, pressure_model, .. } = *self.input;
+        let pressures = |reached: &[Reached]| -> Vec<f64> {
+            reached.iter().map(|r| kpa(pressure_model, fabric, r)).collect()
+        };
+        let got = pressures(&here);
+        // A place that no tension presses on does not pull at its thread.
+        let counts: Vec<bool> = here
+            .iter()
+            .map(|r| pressing_curvature(pressure_model, &r.curvature) > FLAT_CURVATURE)
+            .collect();
+        let agree = annotations.iter().zip(&got).zip(&counts).all(|((a, &got), &counts)| {
+            !counts || (got - a.kpa).abs() <= (AGREE.0 * a.kpa).max(AGREE.1)
+        });
+        if agree || self.rounds > MOST_ROUNDS {
+            self.settled = true;
+            return false;
+        }
+        // Pressure per strain of a thread by itself.
+        let own = |k: usize| {
+            let Reached { curvature, threads, .. } = here[k];
+            let more = Stretch::without_shear(threads.warp + 0.01, threads.weft);
+            let now = pressure_kpa(pressure_model, fabric, &curvature, &threads);
+            (pressure_kpa(pressure_model, fabric, &curvature, &more) - now) / 0.01
+        };
+        let count = self.groups.len();
+        if self.answers.is_none() {
+            let base = self.targets(coordinates);
+            let answers = (0..count)
+                .map(|i| {
+                    let mut answers = vec![0.0; annotations.len()];
+                    let Some(asked) = self.asked[i] else { return answers };
+                    if count > MOST_SOLVED {
+                        for &k in &self.groups[i] {
+                            answers[k] = own(k);
+                        }
+                        return answers;
+                    }
+                    // Away from the nearer end of the range, where the function is held.
+                    let step = if asked > 0.5 * fabric.max_strain { -0.01 } else { 0.01 };
+                    let mut other = self.asked.clone();
+                    other[i] = Some(asked + step);
+                    let moved = answer(&base, &self.with(coordinates, &other));
+                    let there: Vec<DVec2> =
+                        coordinates.iter().zip(&moved).map(|(&p, &d)| p + d).collect();
+                    for (k, kpa) in pressures(&self.reached(&there)).into_iter().enumerate() {
+                        answers[k] = (kpa - got[k]) / step;
+                    }
+                    answers
+                })
+                .collect();
+            self.answers = Some(answers);
+        }
+        let Some(answers) = &self.answers else { return false };
+        let mut problem = LeastSquares::new(count);
+        for k in (0..annotations.len()).filter(|&k| counts[k]) {
+            let row: Vec<f64> = (0..count).map(|i| answers[i][k]).collect();
+            problem.add(&row, annotations[k].kpa - got[k], 1.0);
+        }
+        let limits: Vec<[f64; 2]> = (0..count)
+            .map(|i| {
+                let (Some(asked), Some(wanted)) = (self.asked[i], self.wanted[i]) else {
+                    return [0.0, 0.0];
+                };
+                let wanted = wanted.clamp(0.0, fabric.max_strain);
+                let mut row = vec![0.0; count];
+                row[i] = self.groups[i].iter().map(|&k| own(k).powi(2)).sum::<f64>().sqrt();
+                problem.add(&row, row[i] * (wanted - asked), EFFORT);
+                [-asked, fabric.max_strain - asked]
+            })
+            .collect();
+        let changes = problem.solve(&limits);
+        for (asked, change) in self.asked.iter_mut().zip(&changes) {
+            if let Some(asked) = asked {
+                *asked = (*asked + change).clamp(0.0, fabric.max_strain);
+            }
+        }
+        self.settled = changes.iter().all(|change| change.abs() < SETTLED_STRAIN);
+        !self.settled
+    }
+}
+
+/// Pressure with the whole threads' strains, in kPa.
+fn kpa(model: PressureModel, fabric: &Fabric, reached: &Reached) -> f64 {
+    let curvature: &LocalCurvature = &reached.curvature;
+    pressure_kpa(model, fabric, curvature, &reached.threads)
+}
+
+/// A small least-squares problem with bounds.
+struct LeastSquares {
+    normal: Vec<Vec<f64>>,
+    right: Vec<f64>,
+}
+
+impl LeastSquares {
+    fn new(unknowns: usize) -> Self {
+        Self { normal: vec![vec![0.0; unknowns]; unknowns], right: vec![0.0; unknowns] }
+    }
+
+    /// Adds weight (row · x − value)².
+    fn add(&mut self, row: &[f64], value: f64, weight: f64) {
+        for (i, a) in row.iter().enumerate() {
+            self.right[i] += weight * a * value;
+            for (j, b) in row.iter().enumerate() {
+                self.normal[i][j] += weight * a * b;
+            }
+        }
+    }
+
+    /// The minimum within the limits, coordinate by coordinate: the problem is convex, so that this
+    /// comes to the one minimum there is.
+    fn solve(&self, limits: &[[f64; 2]]) -> Vec<f64> {
+        let mut x = vec![0.0; self.right.len()];
+        for _ in 0..10_000 {
+            let mut change = 0.0f64;
+            for i in 0..x.len() {
+                let diagonal = self.normal[i][i];
+                if diagonal <= 0.0 {
+                    continue;
+                }
+                let sum: f64 = self.normal[i].iter().zip(&x).map(|(a, b)| a * b).sum();
+                let next = (x[i] + (self.right[i] - sum) / diagonal).clamp(limits[i][0], limits[i][1]);
+                change = change.max((next - x[i]).abs());
+                x[i] = next;
+            }
+            if change < 1e-10 {
+                break;
+            }
+        }
+        x
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn least_squares_with_a_bound_by_hand() {
+        // x + y = 3 and x − y = 1: x = 2, y = 1; with x ≤ 1.5 the best y is 1.
+        let mut problem = LeastSquares::new(2);
+        problem.add(&[1.0, 1.0], 3.0, 1.0);
+        problem.add(&[1.0, -1.0], 1.0, 1.0);
+        let free = problem.solve(&[[-9.0, 9.0], [-9.0, 9.0]]);
+        assert!((free[0] - 2.0).abs() < 1e-9 && (free[1] - 1.0).abs() < 1e-9);
+        let held = problem.solve(&[[-9.0, 1.5], [-9.0, 9.0]]);
+        assert!((held[0] - 1.5).abs() < 1e-9 && (held[1] - 1.0).abs() < 1e-9);
+    }
+}

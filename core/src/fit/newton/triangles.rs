@@ -1,0 +1,310 @@
+//! The worn triangles as the fit needs them, and the energy's sums over them.
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::element::{Element, Gradients, Springs, Stretches, energy, expand};
+use super::straight::Smoothing;
+use crate::fit::Misfit;
+use crate::parameterize::{first_root, rest_triangles};
+use crate::pressure::{StrainCourse, Targets};
+use crate::surface::Surface;
+
+/// Fewer triangles than this a task cost more than they save.
+const PER_TASK: usize = 1024;
+
+/// A worn triangle.
+#[derive(Debug, Clone, Copy)]
+struct Worn {
+    corners: [u32; 3],
+    hats: [DVec2; 3],
+    area: f64,
+    /// The frame in which the hats' gradients are given.
+    frame: [DVec3; 2],
+}
+
+/// All of them.
+pub struct Triangles(Vec<Worn>);
+
+/// The wanted stretches along the pattern, as the fit counts weft coordinates.
+pub struct Wanted {
+    course: StrainCourse,
+    low: f64,
+    length: f64,
+    weft: f64,
+}
+
+impl Wanted {
+    /// Those of these targets.
+    pub fn new(targets: &Targets, weft_strain: f64) -> Self {
+        let [low, high] = targets.extent;
+        Self {
+            course: targets.function.course(),
+            low,
+            length: (high - low).max(f64::MIN_POSITIVE),
+            weft: 1.0 + weft_strain,
+        }
+    }
+
+    /// At a weft coordinate.
+    fn at(&self, y: f64) -> Stretches {
+        let [strain, first, second] = self.course.at((y - self.low) / self.length);
+        let warp = [1.0 + strain, first / self.length, second / (self.length * self.length)];
+        Stretches { warp, weft: self.weft }
+    }
+}
+
+/// Springs that turn a triangle's threads into the directions of their neighbourhood; per worn area.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Turning {
+    /// Direction of the warp thread, in the triangle's frame.
+    warp: DVec2,
+    weft: DVec2,
+    /// Stiffness against ∇y along `warp`, and against ∇x along `weft`, in N·mm.
+    stiffness: [f64; 2],
+}
+
+impl Turning {
+    fn energy(&self, g: &Gradients) -> f64 {
+        let [warp, weft] = self.stiffness;
+        0.5 * (warp * g.y.dot(self.warp).powi(2) + weft * g.x.dot(self.weft).powi(2))
+    }
+}
+
+/// The turning springs outweigh the buckling force so many times.
+const OUTWEIGHS: f64 = 2.0;
+
+/// Share of the turning springs in the Hessian: between a course that the neighbourhood follows (none
+/// of them is felt) and a zigzag, which feels all of them.
+const FELT: f64 = 0.5;
+
+impl Triangles {
+    /// Those of a surface.
+    pub fn new(surface: &Surface) -> Self {
+        let rest = rest_triangles(surface);
+        let ids: Vec<_> = surface.triangle_ids().collect();
+        Self(
+            ids.par_iter()
+                .with_min_len(PER_TASK)
+                .zip(&rest)
+                .map(|(&t, rest)| {
+                    let [a, b, c] = surface.corners(t);
+                    let along = (b - a).normalize_or_zero();
+                    let across = (c - a).reject_from(along).normalize_or_zero();
+                    Worn {
+                        // A surface has fewer than 2^32 vertices: the matrix has refused more.
+                        corners: surface.triangle(t).map(|v| v.index() as u32),
+                        hats: rest.gradients(),
+                        area: rest.area,
+                        frame: [along, across],
+                    }
+                })
+                .collect(),
+        )
+    }
+
+    fn gradients(worn: &Worn, coordinates: &[DVec2]) -> (Gradients, f64) {
+        let p = worn.corners.map(|v| coordinates[v as usize]);
+        (Gradients::new(&worn.hats, p), (p[0].y + p[1].y + p[2].y) / 3.0)
+    }
+
+    /// Sum over all triangles in order, on any number of threads.
+    fn sum(&self, of: impl Fn(usize, &Worn) -> f64 + Sync) -> f64 {
+        let parts: Vec<f64> = self
+            .0
+            .par_chunks(PER_TASK)
+            .enumerate()
+            .map(|(chunk, part)| {
+                part.iter().enumerate().map(|(k, worn)| of(chunk * PER_TASK + k, worn)).sum()
+            })
+            .collect();
+        parts.iter().sum()
+    }
+
+    /// The energy at these pattern coordinates with the turning springs (none if empty), in N·mm.
+    pub fn energy(
+        &self,
+        coordinates: &[DVec2],
+        springs: &Springs,
+        wanted: &Wanted,
+        turning: &[Turning],
+    ) -> f64 {
+        self.sum(|k, worn| {
+            let (g, y) = Self::gradients(worn, coordinates);
+            let turned = turning.get(k).map_or(0.0, |turning| turning.energy(&g));
+            worn.area * (energy(&g, springs, &wanted.at(y)) + turned)
+        })
+    }
+
+    /// J_E, and E_SSD as a woven grid of this spacing would count it.
+    pub fn misfit(
+        &self,
+        coordinates: &[DVec2],
+        springs: &Springs,
+        wanted: &Wanted,
+        spacing: f64,
+    ) -> Misfit {
+        let cell = spacing * spacing;
+        let cells = self.sum(|_, worn| {
+            worn.area * Self::gradients(worn, coordinates).0.determinant() / cell
+        });
+        let e_ssd = self.sum(|_, worn| {
+            let (g, y) = Self::gradients(worn, coordinates);
+            let wanted = wanted.at(y);
+            let [warp, weft] = g.stretches();
+            let off = (warp - wanted.warp[0]).powi(2) + (weft - wanted.weft).powi(2);
+            worn.area * g.determinant() * off / cell
+        });
+        let energy = self.energy(coordinates, springs, wanted, &[]);
+        Misfit { energy, e_ssd, springs: (2.0 * cells).round().max(0.0) as usize }
+    }
+
+    /// The turning springs at these pattern coordinates: stiff where threads are shorter than wanted.
+    pub fn turning(
+        &self,
+        coordinates: &[DVec2],
+        springs: &Springs,
+        wanted: &Wanted,
+        spacing: f64,
+    ) -> Vec<Turning> {
+        struct Here {
+            middle: DVec2,
+            area: f64,
+            warp: DVec3,
+            weft: DVec3,
+            push: [f64; 2],
+        }
+        let here: Vec<Here> = self
+            .0
+            .par_iter()
+            .with_min_len(PER_TASK)
+            .map(|worn| {
+                let (g, y) = Self::gradients(worn, coordinates);
+                let d = g.determinant();
+                let wanted = wanted.at(y);
+                let [a, b] = g.stretches();
+                let push = |k: f64, stretch: f64, wanted: f64, n: f64| {
+                    OUTWEIGHS * d * k * stretch * (wanted - stretch).max(0.0) / (n * n)
+                };
+                let [u, v] = worn.frame;
+                let p = worn.corners.map(|v| coordinates[v as usize]);
+                Here {
+                    middle: (p[0] + p[1] + p[2]) / 3.0,
+                    area: d * worn.area,
+                    warp: (g.y.y * u - g.y.x * v) / g.y.length(),
+                    weft: (g.x.x * v - g.x.y * u) / g.x.length(),
+                    push: [
+                        push(springs.warp, a, wanted.warp[0], g.y.length()),
+                        push(springs.weft, b, wanted.weft, g.x.length()),
+                    ],
+                }
+            })
+            .collect();
+        let middles: Vec<DVec2> = here.iter().map(|h| h.middle).collect();
+        let areas: Vec<f64> = here.iter().map(|h| h.area).collect();
+        let smoothing = Smoothing::new(&middles, &areas, spacing);
+        let field = |of: fn(&Here) -> DVec3| -> Vec<DVec3> { here.iter().map(of).collect() };
+        let warp = smoothing.mean(&middles, &areas, &field(|h| h.warp));
+        let weft = smoothing.mean(&middles, &areas, &field(|h| h.weft));
+        let in_frame = |worn: &Worn, mean: DVec3| {
+            DVec2::new(worn.frame[0].dot(mean), worn.frame[1].dot(mean)).normalize_or_zero()
+        };
+        self.0
+            .iter()
+            .zip(&here)
+            .zip(warp.iter().zip(&weft))
+            .map(|((worn, here), (&warp, &weft))| Turning {
+                warp: in_frame(worn, warp),
+                weft: in_frame(worn, weft),
+                stiffness: here.push,
+            })
+            .collect()
+    }
+
+    /// Every triangle's part of gradient and Hessian, into `elements`.
+    pub fn elements(
+        &self,
+        coordinates: &[DVec2],
+        springs: &Springs,
+        wanted: &Wanted,
+        turning: &[Turning],
+        share: f64,
+        elements: &mut Vec<Element>,
+    ) {
+        self.0
+            .par_iter()
+            .with_min_len(PER_TASK)
+            .zip(turning)
+            .map(|(worn, turning)| {
+                let (g, y) = Self::gradients(worn, coordinates);
+                let mut expansion = expand(&g, springs, &wanted.at(y), share);
+                let [warp, weft] = turning.stiffness;
+                expansion.turn(&g, true, turning.warp, warp, FELT);
+                expansion.turn(&g, false, turning.weft, weft, FELT);
+                expansion.at_corners(&worn.hats, worn.area)
+            })
+            .collect_into_vec(elements);
+    }
+
+    /// The gradient of the energy alone by every coordinate (x₀, y₀, x₁, …), in N.
+    pub fn gradient(&self, coordinates: &[DVec2], springs: &Springs, wanted: &Wanted) -> Vec<f64> {
+        let forces: Vec<[f64; 6]> = self
+            .0
+            .par_iter()
+            .with_min_len(PER_TASK)
+            .map(|worn| {
+                let (g, y) = Self::gradients(worn, coordinates);
+                expand(&g, springs, &wanted.at(y), 0.0).at_corners(&worn.hats, worn.area).force
+            })
+            .collect();
+        self.gather(coordinates.len(), forces.iter())
+    }
+
+    /// Forces at corners summed at the vertices, in order.
+    pub fn gather<'a>(
+        &self,
+        vertices: usize,
+        forces: impl Iterator<Item = &'a [f64; 6]>,
+    ) -> Vec<f64> {
+        let mut sums = vec![0.0; 2 * vertices];
+        for (worn, force) in self.0.iter().zip(forces) {
+            for (k, v) in worn.corners.iter().enumerate() {
+                sums[2 * *v as usize] += force[2 * k];
+                sums[2 * *v as usize + 1] += force[2 * k + 1];
+            }
+        }
+        sums
+    }
+
+    /// A third of the pattern's area round each vertex, in mm².
+    pub fn shares(&self, coordinates: &[DVec2]) -> Vec<f64> {
+        let mut shares = vec![0.0; coordinates.len()];
+        for worn in &self.0 {
+            let area = worn.area * Self::gradients(worn, coordinates).0.determinant();
+            for v in worn.corners {
+                shares[v as usize] += area / 3.0;
+            }
+        }
+        shares
+    }
+
+    /// The longest step along `motion`, up to 1, that leaves every triangle a fair share of its area.
+    pub fn longest_step(&self, coordinates: &[DVec2], motion: &[DVec2]) -> f64 {
+        /// Share of the way to the first collapse that a step may go.
+        const SHORT_OF_COLLAPSE: f64 = 0.8;
+        let parts: Vec<f64> = self
+            .0
+            .par_chunks(PER_TASK)
+            .map(|part| {
+                part.iter().fold(f64::INFINITY, |least, worn| {
+                    let [a, b, c] = worn.corners.map(|v| coordinates[v as usize]);
+                    let [da, db, dc] = worn.corners.map(|v| motion[v as usize]);
+                    let (e, f, de, df) = (b - a, c - a, db - da, dc - da);
+                    let linear = e.perp_dot(df) + de.perp_dot(f);
+                    least.min(first_root(de.perp_dot(df), linear, e.perp_dot(f)))
+                })
+            })
+            .collect();
+        parts.iter().fold(1.0, |least: f64, &part| least.min(SHORT_OF_COLLAPSE * part))
+    }
+}
