@@ -20,7 +20,10 @@
 use glam::DVec2;
 
 /// Number of local variables: ∇x (2), ∇y (2), c.
-const LOCAL: usize = 5;
+pub const LOCAL: usize = 5;
+
+/// Share of a corner in the triangle's mean weft coordinate.
+const THIRD: f64 = 1.0 / 3.0;
 
 /// Stiffness of warp, weft and diagonal springs, in N/mm.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,6 +119,39 @@ pub struct Expansion {
     pub bend: [[f64; LOCAL]; LOCAL],
 }
 
+/// The first derivatives alone, at a triangle that is not turned over.
+pub fn slope(g: &Gradients, k: &Springs, wanted: &Stretches) -> [f64; LOCAL] {
+    let d = g.determinant();
+    let (root, by_d) = (d.sqrt(), 1.0 / d);
+    let inverse = 1.0 / root;
+    let dd = [g.y.y, -g.y.x, -g.x.y, g.x.x];
+    let mut slope = [0.0; LOCAL];
+    for (k, alpha, beta, [length, length1, _]) in springs(k, wanted) {
+        let v = alpha * g.x + beta * g.y;
+        let n = v.length();
+        let kr = k * (n * inverse - length * root);
+        let half = 0.5 * (n * by_d + length) * inverse;
+        let m = v / n * inverse;
+        slope[0] += kr * (alpha * m.x - half * dd[0]);
+        slope[1] += kr * (alpha * m.y - half * dd[1]);
+        slope[2] += kr * (beta * m.x - half * dd[2]);
+        slope[3] += kr * (beta * m.y - half * dd[3]);
+        slope[4] -= kr * length1 * root;
+    }
+    slope
+}
+
+/// First derivatives by the corners' pattern coordinates (x₀, y₀, x₁, …), times the worn area.
+pub fn force_at_corners(slope: &[f64; LOCAL], hats: &[DVec2; 3], area: f64) -> [f64; 6] {
+    let mut force = [0.0; 6];
+    for k in 0..3 {
+        let [a, b] = hats[k].to_array();
+        force[2 * k] = area * (slope[0] * a + slope[1] * b);
+        force[2 * k + 1] = area * (slope[2] * a + slope[3] * b + slope[4] * THIRD);
+    }
+    force
+}
+
 /// The expansion at a triangle that is not turned over; `share` (0 to 1) of the second-order part is
 /// added to the Gauss–Newton matrix.
 pub fn expand(g: &Gradients, k: &Springs, wanted: &Stretches, share: f64) -> Expansion {
@@ -174,15 +210,21 @@ pub fn expand(g: &Gradients, k: &Springs, wanted: &Stretches, share: f64) -> Exp
     Expansion { slope, bend }
 }
 
+/// Adds the first derivatives of ½ s (∇y · along)² or ½ s (∇x · along)²: see [`Expansion::turn`].
+pub fn turn(slope: &mut [f64; LOCAL], g: &Gradients, of_y: bool, along: DVec2, s: f64) {
+    let (v, at) = if of_y { (g.y, 2) } else { (g.x, 0) };
+    let off = v.dot(along);
+    slope[at] += s * off * along.x;
+    slope[at + 1] += s * off * along.y;
+}
+
 impl Expansion {
     /// Adds ½ s (∇y · along)² or ½ s (∇x · along)²: a spring that turns a thread into a direction;
     /// `felt` of it in the second derivatives.
     pub fn turn(&mut self, g: &Gradients, of_y: bool, along: DVec2, s: f64, felt: f64) {
-        let (v, at) = if of_y { (g.y, 2) } else { (g.x, 0) };
-        let off = v.dot(along);
+        turn(&mut self.slope, g, of_y, along, s);
+        let at = if of_y { 2 } else { 0 };
         let [a, b] = along.to_array();
-        self.slope[at] += s * off * a;
-        self.slope[at + 1] += s * off * b;
         self.bend[at][at] += felt * s * a * a;
         self.bend[at + 1][at] += felt * s * a * b;
         self.bend[at + 1][at + 1] += felt * s * b * b;
@@ -191,15 +233,10 @@ impl Expansion {
     /// By the corners' pattern coordinates (x₀, y₀, x₁, y₁, x₂, y₂), times the worn area: gradient,
     /// and Hessian as its lower triangle row by row.
     pub fn at_corners(&self, hats: &[DVec2; 3], area: f64) -> Element {
-        const THIRD: f64 = 1.0 / 3.0;
         let h = |i: usize, j: usize| if i >= j { self.bend[i][j] } else { self.bend[j][i] };
-        let mut force = [0.0; 6];
         let mut columns = [[0.0; LOCAL]; 6];
         for k in 0..3 {
             let [a, b] = hats[k].to_array();
-            force[2 * k] = area * (self.slope[0] * a + self.slope[1] * b);
-            force[2 * k + 1] =
-                area * (self.slope[2] * a + self.slope[3] * b + self.slope[4] * THIRD);
             for i in 0..LOCAL {
                 columns[2 * k][i] = area * (h(i, 0) * a + h(i, 1) * b);
                 columns[2 * k + 1][i] = area * (h(i, 2) * a + h(i, 3) * b + h(i, 4) * THIRD);
@@ -218,7 +255,7 @@ impl Expansion {
                 at += 1;
             }
         }
-        Element { force, stiffness }
+        Element { force: force_at_corners(&self.slope, hats, area), stiffness }
     }
 }
 
@@ -265,7 +302,13 @@ mod tests {
     #[test]
     fn the_gradient_is_that_of_the_energy() {
         let force = element(&AT, 1.0).force;
+        let alone = force_at_corners(
+            &slope(&Gradients::new(&HATS, corners(&AT)), &K, &wanted((0.2 + 0.5 + 2.7) / 3.0)),
+            &HATS,
+            2.5,
+        );
         for i in 0..6 {
+            assert!((force[i] - alone[i]).abs() < 1e-13);
             let step = |h: f64| {
                 let mut p = AT;
                 p[i] += h;

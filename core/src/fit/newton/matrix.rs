@@ -157,9 +157,9 @@ impl Matrix {
         })
     }
 
-    /// Values for a matrix of zeros.
-    pub fn zeros(&self) -> Vec<f64> {
-        vec![0.0; self.symbolic.compute_nnz()]
+    /// Number of values.
+    pub fn len(&self) -> usize {
+        self.symbolic.compute_nnz()
     }
 
     /// Number of values of the factor: what a factorization costs in memory, times eight bytes.
@@ -401,7 +401,7 @@ mod tests {
             }
             elements.push(Element { force: [0.0; 6], stiffness });
         }
-        let mut values = matrix.zeros();
+        let mut values = vec![0.0; matrix.len()];
         matrix.add_triangles(&mut values, &elements);
         let row = [0.3, -0.7, 1.1, 0.2];
         matrix.add_square(&mut values, 0, &row, 2.0);

@@ -196,12 +196,12 @@ impl<'a> Threads<'a> {
         Targets::new(threads, wishes, [low, high], fabric.max_strain, parameters.row_spacing)
     }
 
-    /// Corrects the targets. `answer` gives how the pattern moves when the wanted strains change from
-    /// one set of targets to another. Whether any target changed.
+    /// Corrects the targets. `answer` gives how the pattern moves when the present targets are replaced
+    /// by others. Whether any target changed.
     pub fn correct(
         &mut self,
         coordinates: &[DVec2],
-        answer: impl Fn(&Targets, &Targets) -> Vec<DVec2>,
+        answer: impl Fn(&Targets) -> Vec<DVec2>,
     ) -> bool {
         let here = self.reached(coordinates);
         self.rounds += 1;
@@ -232,31 +232,28 @@ impl<'a> Threads<'a> {
         };
         let count = self.groups.len();
         if self.answers.is_none() {
-            let base = self.targets(coordinates);
-            let answers = (0..count)
-                .map(|i| {
-                    let mut answers = vec![0.0; annotations.len()];
-                    let Some(asked) = self.asked[i] else { return answers };
-                    if count > MOST_SOLVED {
-                        for &k in &self.groups[i] {
-                            answers[k] = own(k);
-                        }
-                        return answers;
+            let answers = (0..count).map(|i| {
+                let mut kpa = vec![0.0; annotations.len()];
+                let Some(asked) = self.asked[i] else { return kpa };
+                if count > MOST_SOLVED {
+                    for &k in &self.groups[i] {
+                        kpa[k] = own(k);
                     }
-                    // Away from the nearer end of the range, where the function is held.
-                    let step = if asked > 0.5 * fabric.max_strain { -0.01 } else { 0.01 };
-                    let mut other = self.asked.clone();
-                    other[i] = Some(asked + step);
-                    let moved = answer(&base, &self.with(coordinates, &other));
-                    let there: Vec<DVec2> =
-                        coordinates.iter().zip(&moved).map(|(&p, &d)| p + d).collect();
-                    for (k, kpa) in pressures(&self.reached(&there)).into_iter().enumerate() {
-                        answers[k] = (kpa - got[k]) / step;
-                    }
-                    answers
-                })
-                .collect();
-            self.answers = Some(answers);
+                    return kpa;
+                }
+                // Away from the nearer end of the range, where the function is held.
+                let step = if asked > 0.5 * fabric.max_strain { -0.01 } else { 0.01 };
+                let mut other = self.asked.clone();
+                other[i] = Some(asked + step);
+                let moved = answer(&self.with(coordinates, &other));
+                let there: Vec<DVec2> =
+                    coordinates.iter().zip(&moved).map(|(&p, &d)| p + d).collect();
+                for (k, there) in pressures(&self.reached(&there)).into_iter().enumerate() {
+                    kpa[k] = (there - got[k]) / step;
+                }
+                kpa
+            });
+            self.answers = Some(answers.collect());
         }
         let Some(answers) = &self.answers else { return false };
         let mut problem = LeastSquares::new(count);

@@ -36,15 +36,9 @@ pub struct Sewn {
     cliques: Vec<Vec<usize>>,
 }
 
-/// A sewn edge's part of the energy.
-pub struct SewnTerm {
-    /// Derivative of l − r by the coordinates of the clique's vertices.
-    pub row: Vec<f64>,
-    /// κ (l − r) / w: the force, in N.
-    pub force: f64,
-    /// κ / w, in N/mm.
-    pub stiffness: f64,
-}
+/// The courses of the seams at some place: derivatives of every l − r by the coordinates of its
+/// clique's vertices.
+pub struct Courses(Vec<Vec<f64>>);
 
 impl Sewn {
     /// The sewn edges of these seams.
@@ -76,43 +70,72 @@ impl Sewn {
         STIFFNESS_MM * fabric.warp.max(fabric.weft)
     }
 
+    /// l − r, in mm.
+    fn mismatch(edge: &SewnEdge, coordinates: &[DVec2]) -> f64 {
+        let length = |[a, b]: [usize; 2]| coordinates[a].distance(coordinates[b]);
+        length(edge.left) - length(edge.right)
+    }
+
     /// The energy of all mismatches, in N·mm.
     pub fn energy(&self, coordinates: &[DVec2], fabric: &Fabric) -> f64 {
         let kappa = Self::stiffness(fabric);
-        let length = |[a, b]: [usize; 2]| coordinates[a].distance(coordinates[b]);
         let edges = self.edges.iter();
-        edges.map(|e| 0.5 * kappa * (length(e.left) - length(e.right)).powi(2) / e.worn).sum()
+        edges.map(|e| 0.5 * kappa * Self::mismatch(e, coordinates).powi(2) / e.worn).sum()
     }
 
-    /// The terms, one for each clique.
-    pub fn terms(&self, coordinates: &[DVec2], fabric: &Fabric) -> Vec<SewnTerm> {
+    /// κ / w of every edge, in N/mm.
+    pub fn stiffnesses(&self, fabric: &Fabric) -> impl Iterator<Item = f64> {
         let kappa = Self::stiffness(fabric);
-        let (left, right) = (self.courses(coordinates, |e| e.left), self.courses(coordinates, |e| e.right));
+        self.edges.iter().map(move |edge| kappa / edge.worn)
+    }
+
+    /// Adds the forces of the mismatches along courses, by every coordinate (x₀, y₀, x₁, …), in N.
+    pub fn add_forces(
+        &self,
+        forces: &mut [f64],
+        coordinates: &[DVec2],
+        courses: &Courses,
+        fabric: &Fabric,
+    ) {
+        let edges = self.edges.iter().zip(self.stiffnesses(fabric));
+        for ((edge, stiffness), (row, clique)) in edges.zip(courses.0.iter().zip(&self.cliques)) {
+            let force = stiffness * Self::mismatch(edge, coordinates);
+            for (k, v) in clique.iter().enumerate() {
+                forces[2 * v] += force * row[2 * k];
+                forces[2 * v + 1] += force * row[2 * k + 1];
+            }
+        }
+    }
+
+    /// The courses at these pattern coordinates.
+    pub fn courses(&self, coordinates: &[DVec2]) -> Courses {
+        let left = self.directions(coordinates, |e| e.left);
+        let right = self.directions(coordinates, |e| e.right);
         let edges = self.edges.iter().enumerate().zip(&self.cliques);
-        edges
-            .map(|((k, edge), clique)| {
-                let mut row = vec![0.0; 2 * clique.len()];
-                let mut add = |vertex: usize, by: DVec2| {
-                    if let Ok(at) = clique.binary_search(&vertex) {
-                        row[2 * at] += by.x;
-                        row[2 * at + 1] += by.y;
-                    }
-                };
-                add(edge.left[1], left[k]);
-                add(edge.left[0], -left[k]);
-                add(edge.right[1], -right[k]);
-                add(edge.right[0], right[k]);
-                let length = |[a, b]: [usize; 2]| coordinates[a].distance(coordinates[b]);
-                let stiffness = kappa / edge.worn;
-                let force = stiffness * (length(edge.left) - length(edge.right));
-                SewnTerm { row, force, stiffness }
-            })
-            .collect()
+        let rows = edges.map(|((k, edge), clique)| {
+            let mut row = vec![0.0; 2 * clique.len()];
+            let mut add = |vertex: usize, by: DVec2| {
+                if let Ok(at) = clique.binary_search(&vertex) {
+                    row[2 * at] += by.x;
+                    row[2 * at + 1] += by.y;
+                }
+            };
+            add(edge.left[1], left[k]);
+            add(edge.left[0], -left[k]);
+            add(edge.right[1], -right[k]);
+            add(edge.right[0], right[k]);
+            row
+        });
+        Courses(rows.collect())
     }
 
     /// The direction of one side at every edge: that of the chord over [`COURSE_MM`] round it.
-    fn courses(&self, coordinates: &[DVec2], side: impl Fn(&SewnEdge) -> [usize; 2]) -> Vec<DVec2> {
-        let mut courses = vec![DVec2::ZERO; self.edges.len()];
+    fn directions(
+        &self,
+        coordinates: &[DVec2],
+        side: impl Fn(&SewnEdge) -> [usize; 2],
+    ) -> Vec<DVec2> {
+        let mut directions = vec![DVec2::ZERO; self.edges.len()];
         let mut at = 0;
         for run in self.edges.chunk_by(|a, b| a.seam == b.seam) {
             // Where every edge begins along the worn seam.
@@ -129,12 +152,19 @@ impl Sewn {
                     + k;
                 let chord = coordinates[side(&run[to - 1])[1]] - coordinates[side(&run[from])[0]];
                 let own = side(&run[k]);
-                courses[at + k] = chord
+                directions[at + k] = chord
                     .try_normalize()
                     .unwrap_or_else(|| (coordinates[own[1]] - coordinates[own[0]]).normalize_or_zero());
             }
             at += run.len();
         }
-        courses
+        directions
+    }
+}
+
+impl Courses {
+    /// One row for each clique.
+    pub fn rows(&self) -> &[Vec<f64>] {
+        &self.0
     }
 }

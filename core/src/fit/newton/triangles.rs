@@ -3,7 +3,9 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::element::{Element, Gradients, Springs, Stretches, energy, expand};
+use super::element::{
+    Element, Gradients, Springs, Stretches, energy, expand, force_at_corners, slope, turn,
+};
 use super::straight::Smoothing;
 use crate::fit::Misfit;
 use crate::parameterize::{first_root, rest_triangles};
@@ -108,17 +110,24 @@ impl Triangles {
         (Gradients::new(&worn.hats, p), (p[0].y + p[1].y + p[2].y) / 3.0)
     }
 
-    /// Sum over all triangles in order, on any number of threads.
-    fn sum(&self, of: impl Fn(usize, &Worn) -> f64 + Sync) -> f64 {
-        let parts: Vec<f64> = self
+    /// Sums over all triangles in order, the same on any number of threads.
+    fn sums<const N: usize>(&self, of: impl Fn(usize, &Worn) -> [f64; N] + Sync) -> [f64; N] {
+        let parts: Vec<[f64; N]> = self
             .0
             .par_chunks(PER_TASK)
             .enumerate()
             .map(|(chunk, part)| {
-                part.iter().enumerate().map(|(k, worn)| of(chunk * PER_TASK + k, worn)).sum()
+                part.iter().enumerate().fold([0.0; N], |mut sums, (k, worn)| {
+                    let values = of(chunk * PER_TASK + k, worn);
+                    sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += value);
+                    sums
+                })
             })
             .collect();
-        parts.iter().sum()
+        parts.iter().fold([0.0; N], |mut sums, part| {
+            sums.iter_mut().zip(part).for_each(|(sum, value)| *sum += value);
+            sums
+        })
     }
 
     /// The energy at these pattern coordinates with the turning springs (none if empty), in N·mm.
@@ -129,11 +138,12 @@ impl Triangles {
         wanted: &Wanted,
         turning: &[Turning],
     ) -> f64 {
-        self.sum(|k, worn| {
+        let [energy] = self.sums(|k, worn| {
             let (g, y) = Self::gradients(worn, coordinates);
             let turned = turning.get(k).map_or(0.0, |turning| turning.energy(&g));
-            worn.area * (energy(&g, springs, &wanted.at(y)) + turned)
-        })
+            [worn.area * (energy(&g, springs, &wanted.at(y)) + turned)]
+        });
+        energy
     }
 
     /// J_E, and E_SSD as a woven grid of this spacing would count it.
@@ -145,17 +155,14 @@ impl Triangles {
         spacing: f64,
     ) -> Misfit {
         let cell = spacing * spacing;
-        let cells = self.sum(|_, worn| {
-            worn.area * Self::gradients(worn, coordinates).0.determinant() / cell
-        });
-        let e_ssd = self.sum(|_, worn| {
+        let [energy, e_ssd, cells] = self.sums(|_, worn| {
             let (g, y) = Self::gradients(worn, coordinates);
             let wanted = wanted.at(y);
             let [warp, weft] = g.stretches();
             let off = (warp - wanted.warp[0]).powi(2) + (weft - wanted.weft).powi(2);
-            worn.area * g.determinant() * off / cell
+            let rest = worn.area * g.determinant() / cell;
+            [worn.area * energy(&g, springs, &wanted), rest * off, rest]
         });
-        let energy = self.energy(coordinates, springs, wanted, &[]);
         Misfit { energy, e_ssd, springs: (2.0 * cells).round().max(0.0) as usize }
     }
 
@@ -246,22 +253,35 @@ impl Triangles {
             .collect_into_vec(elements);
     }
 
-    /// The gradient of the energy alone by every coordinate (x₀, y₀, x₁, …), in N.
-    pub fn gradient(&self, coordinates: &[DVec2], springs: &Springs, wanted: &Wanted) -> Vec<f64> {
+    /// The gradient of the energy with the turning springs (none if empty) by every coordinate
+    /// (x₀, y₀, x₁, …), in N.
+    pub fn gradient(
+        &self,
+        coordinates: &[DVec2],
+        springs: &Springs,
+        wanted: &Wanted,
+        turning: &[Turning],
+    ) -> Vec<f64> {
         let forces: Vec<[f64; 6]> = self
             .0
             .par_iter()
+            .enumerate()
             .with_min_len(PER_TASK)
-            .map(|worn| {
+            .map(|(k, worn)| {
                 let (g, y) = Self::gradients(worn, coordinates);
-                expand(&g, springs, &wanted.at(y), 0.0).at_corners(&worn.hats, worn.area).force
+                let mut slope = slope(&g, springs, &wanted.at(y));
+                if let Some(turning) = turning.get(k) {
+                    turn(&mut slope, &g, true, turning.warp, turning.stiffness[0]);
+                    turn(&mut slope, &g, false, turning.weft, turning.stiffness[1]);
+                }
+                force_at_corners(&slope, &worn.hats, worn.area)
             })
             .collect();
         self.gather(coordinates.len(), forces.iter())
     }
 
     /// Forces at corners summed at the vertices, in order.
-    pub fn gather<'a>(
+    fn gather<'a>(
         &self,
         vertices: usize,
         forces: impl Iterator<Item = &'a [f64; 6]>,

@@ -1,0 +1,189 @@
+//! The equations of one Newton step: gradient, Hessian, and what holds the fabric.
+
+use glam::DVec2;
+
+use super::Prepared;
+use super::element::{Element, Springs};
+use super::matrix::Factored;
+use super::seam::Courses;
+use super::triangles::{Turning, Wanted};
+use crate::fit::{FitError, FitInput};
+
+/// Added to the Hessian's diagonal, relative to its mean: it holds the rotation that may cost nothing
+/// and is far below any stiffness of the fabric.
+const HOLD: f64 = 1e-7;
+
+/// Stiffness that holds one vertex, relative to the mean of the Hessian's diagonal.
+const PIN: f64 = 1e4;
+
+/// The vertex that is held while a step is computed, where the fabric may slide: any will do.
+const PINNED: usize = 0;
+
+/// A fit without its state.
+pub struct Problem<'a> {
+    /// The surface.
+    pub prepared: &'a Prepared,
+    /// What is wanted.
+    pub input: &'a FitInput<'a>,
+    /// The fabric's stiffness.
+    pub springs: Springs,
+    /// The row of the linear constraint on the coordinates (index among x₀, y₀, x₁, …; factor):
+    /// difference of the markers' x.
+    upright: Vec<(usize, f64)>,
+}
+
+/// A factorized Hessian.
+pub struct Model<'a> {
+    factor: Factored<'a>,
+    /// Along which the sewn edges pull: a force across the course that was factorized would move the
+    /// fabric as if nothing held it.
+    pub courses: Courses,
+    /// How the pinned fabric answers to the force of the markers' constraint.
+    upright: Vec<f64>,
+    /// How it answers to a unit of force along weft, shared out over the fabric.
+    slide: Vec<f64>,
+}
+
+impl Model<'_> {
+    /// The room of its factor, for the next one.
+    pub fn into_room(self) -> Vec<f64> {
+        self.factor.into_room()
+    }
+}
+
+/// A state of the fabric.
+pub struct Place<'a> {
+    /// Pattern coordinates by vertex, in mm.
+    pub coordinates: &'a [DVec2],
+    /// The strains wanted.
+    pub wanted: &'a Wanted,
+    /// The turning springs.
+    pub turning: &'a [Turning],
+}
+
+/// Memory that is used again for every Hessian.
+#[derive(Default)]
+pub struct Room {
+    elements: Vec<Element>,
+    values: Vec<f64>,
+    /// Of a factor.
+    pub factor: Vec<f64>,
+}
+
+impl<'a> Problem<'a> {
+    /// The fit of a prepared surface.
+    pub fn new(prepared: &'a Prepared, input: &'a FitInput<'a>) -> Self {
+        let mut upright = Vec::with_capacity(6);
+        for (marker, sign) in input.markers.iter().zip([1.0, -1.0]) {
+            let weights = marker.barycentric.to_array();
+            for (v, w) in input.disk.triangle(marker.triangle).iter().zip(weights) {
+                upright.push((2 * v.index(), sign * w));
+            }
+        }
+        let fabric = input.fabric;
+        let springs = Springs { warp: fabric.warp, weft: fabric.weft, diagonal: fabric.diagonal };
+        Self { prepared, input, springs, upright }
+    }
+
+    /// Energy with turning springs and seams, in N·mm.
+    pub fn value(&self, at: &Place<'_>) -> f64 {
+        let Prepared { triangles, sewn, .. } = self.prepared;
+        triangles.energy(at.coordinates, &self.springs, at.wanted, at.turning)
+            + sewn.energy(at.coordinates, self.input.fabric)
+    }
+
+    /// Minus the gradient of it, in N.
+    pub fn downhill(&self, at: &Place<'_>, courses: &Courses) -> Vec<f64> {
+        let Prepared { triangles, sewn, .. } = self.prepared;
+        let mut force = triangles.gradient(at.coordinates, &self.springs, at.wanted, at.turning);
+        sewn.add_forces(&mut force, at.coordinates, courses, self.input.fabric);
+        for f in &mut force {
+            *f = -*f;
+        }
+        force
+    }
+
+    /// The Hessian with the given share of its second-order part; `None` if that is not positive definite.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn model(
+        &self,
+        at: &Place<'_>,
+        share: f64,
+        equal_seams: bool,
+        room: &mut Room,
+    ) -> Result<Option<Model<'a>>, FitError> {
+        let Prepared { triangles, sewn, matrix } = self.prepared;
+        let Room { elements, values, factor } = room;
+        let coordinates = at.coordinates;
+        triangles.elements(coordinates, &self.springs, at.wanted, at.turning, share, elements);
+        values.clear();
+        values.resize(matrix.len(), 0.0);
+        matrix.add_triangles(values, elements);
+        let mean = matrix.mean_diagonal(values);
+        for v in 0..coordinates.len() {
+            matrix.add_diagonal(values, v, HOLD * mean);
+        }
+        matrix.add_diagonal(values, PINNED, PIN * mean);
+        let courses = sewn.courses(coordinates);
+        if equal_seams {
+            let stiffnesses = sewn.stiffnesses(self.input.fabric);
+            for (k, (row, stiffness)) in courses.rows().iter().zip(stiffnesses).enumerate() {
+                matrix.add_square(values, k, row, stiffness);
+            }
+        }
+        let factor = match matrix.factorize(values, std::mem::take(factor))? {
+            Ok(factor) => factor,
+            Err(taken) => {
+                room.factor = taken;
+                return Ok(None);
+            }
+        };
+        let slide = self.shares(coordinates);
+        let mut row = vec![0.0; 2 * coordinates.len()];
+        for &(i, w) in &self.upright {
+            row[i] += w;
+        }
+        let [upright, slide] = factor.solve([&row, &slide]);
+        Ok(Some(Model { factor, courses, upright, slide }))
+    }
+
+    /// Shares of the vertices in the pattern's area, as forces along weft.
+    fn shares(&self, coordinates: &[DVec2]) -> Vec<f64> {
+        let shares = self.prepared.triangles.shares(coordinates);
+        let whole: f64 = shares.iter().sum();
+        shares.iter().flat_map(|share| [0.0, share / whole]).collect()
+    }
+
+    /// The motion by which the fabric answers to forces.
+    ///
+    /// The strain function is built anew round the annotated points before every step, so that sliding
+    /// along it wins nothing; a net force along weft is borne by all of the fabric alike, as a
+    /// woven model that slides steadily would bear it. So to the pinned fabric's answer are added
+    /// those to the shared force and to the markers' constraint that make the pin bear nothing and the
+    /// markers stand upright. The fabric's middle stays where it is.
+    pub fn answer(&self, model: &Model<'_>, coordinates: &[DVec2], forces: &[f64]) -> Vec<DVec2> {
+        let [pinned] = model.factor.solve([forces]);
+        let lean = |x: &[f64]| self.upright.iter().map(|&(i, w)| w * x[i]).sum::<f64>();
+        let pin = |x: &[f64]| x[2 * PINNED + 1];
+        let (u, s) = (&model.upright, &model.slide);
+        let (a, b, c, d) = (lean(u), lean(s), pin(u), pin(s));
+        let (e, f) = (-lean(&pinned), -pin(&pinned));
+        let determinant = a * d - b * c;
+        let (alpha, beta) = ((e * d - b * f) / determinant, (a * f - e * c) / determinant);
+        let mut motion: Vec<DVec2> = pinned
+            .chunks_exact(2)
+            .zip(u.chunks_exact(2).zip(s.chunks_exact(2)))
+            .map(|(x, (u, s))| {
+                DVec2::new(x[0] + alpha * u[0] + beta * s[0], x[1] + alpha * u[1] + beta * s[1])
+            })
+            .collect();
+        let shares = self.shares(coordinates);
+        let middle: f64 = motion.iter().zip(shares.chunks_exact(2)).map(|(m, s)| s[1] * m.y).sum();
+        for m in &mut motion {
+            m.y -= middle;
+        }
+        motion
+    }
+}

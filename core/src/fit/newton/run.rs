@@ -1,0 +1,314 @@
+//! The course of a fit: steps until nothing moves any more and the pressures are met.
+
+use glam::DVec2;
+
+use super::Prepared;
+use super::anderson::Anderson;
+use super::pressures::Threads;
+use super::problem::{Model, Place, Problem, Room};
+use super::triangles::{Turning, Wanted};
+use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
+use crate::pressure::Targets;
+use crate::progress::{Progress, Stage};
+
+/// Targets are corrected when a step moves no vertex by more than this, in mm: then a thread's strain is
+/// known to some 0.1 %.
+const NEAR_MM: f64 = 1.0;
+
+/// Steps that move no vertex by more than this are taken as they are: what follows the fabric (threads,
+/// turning springs, a seam's course) makes the energy an uncertain judge of them.
+const TRUSTED_MM: f64 = 1.0;
+
+/// From steps this small on a Hessian serves for several steps.
+const KEPT_MM: f64 = 4.0;
+
+/// A Hessian is kept while each step shrinks to less than this share of the last.
+const SHRINKS: f64 = 0.5;
+
+/// Steps this large are taken by the Gauss–Newton matrix: far from the minimum the second-order part is
+/// rarely positive and seldom of use.
+const FAR_MM: f64 = 10.0;
+
+/// A step halved this often is no step.
+const HALVINGS: usize = 12;
+
+/// A fit on its way.
+pub struct Run<'a> {
+    problem: Problem<'a>,
+    progress: &'a dyn Progress,
+    coordinates: Vec<DVec2>,
+    threads: Threads<'a>,
+    history: Vec<HistoryEntry>,
+    iterations: u64,
+    model: Option<Model<'a>>,
+    room: Room,
+    /// Share of the second-order part in the Hessian.
+    share: f64,
+    anderson: Anderson,
+    /// Largest movement of a vertex in the last step, in mm.
+    last: f64,
+    /// Whether the Hessian at hand is from an earlier step.
+    kept: bool,
+    /// Whether the last step was a large one.
+    far: bool,
+}
+
+/// A step on trial.
+struct Step {
+    motion: Vec<DVec2>,
+    /// Largest movement of a vertex, in mm.
+    largest: f64,
+    /// Derivative of the energy along it, in N·mm.
+    slope: f64,
+}
+
+/// The plane turned so that the first marker stands vertically above the second.
+fn turned_upright(coordinates: &[DVec2], input: &FitInput<'_>) -> Vec<DVec2> {
+    let [upper, lower] = input.markers.map(|m| m.interpolate(input.disk, coordinates));
+    let up = (upper - lower).normalize_or(DVec2::Y);
+    let turn = DVec2::new(up.y, up.x);
+    coordinates.iter().map(|&p| turn.rotate(p)).collect()
+}
+
+impl<'a> Run<'a> {
+    /// From the initial parameterization, or from an earlier fit.
+    pub fn new(
+        prepared: &'a Prepared,
+        input: &'a FitInput<'a>,
+        earlier: Option<&Fit>,
+        progress: &'a dyn Progress,
+    ) -> Self {
+        let start = earlier.map_or(input.omega, |fit| &fit.coordinates);
+        let coordinates = turned_upright(start, input);
+        let mut threads = Threads::new(input, &coordinates);
+        if let Some(fit) = earlier {
+            threads.resume(&fit.targets);
+        }
+        Self {
+            problem: Problem::new(prepared, input),
+            progress,
+            coordinates,
+            threads,
+            history: Vec::new(),
+            iterations: 0,
+            model: None,
+            room: Room::default(),
+            share: 1.0,
+            anderson: Anderson::default(),
+            last: if earlier.is_some() { KEPT_MM } else { f64::INFINITY },
+            kept: false,
+            far: earlier.is_none(),
+        }
+    }
+
+    /// Steps until nothing moves.
+    ///
+    /// # Errors
+    /// If memory runs out or the job is cancelled.
+    pub fn settle(mut self) -> Result<Fit, FitError> {
+        let parameters = self.problem.input.parameters;
+        let mut targets = self.threads.targets(&self.coordinates);
+        self.record(&targets);
+        let stopped = loop {
+            let wanted = self.wanted(&targets);
+            let turning = self.problem.prepared.triangles.turning(
+                &self.coordinates,
+                &self.problem.springs,
+                &wanted,
+                parameters.spacing,
+            );
+            let step = self.step(&wanted, &turning)?;
+            let moved = self.advance(&step, &wanted, &turning);
+            if std::env::var_os("WFDEBUG").is_some() {
+                eprintln!("{} it {} largest {:.4e} slope {:.3e} share {} kept {}", if self.kept {" "} else {"F"}, self.iterations, step.largest, step.slope, self.share, self.model.is_some());
+            }
+            self.iterations += 1;
+            self.last = step.largest;
+            self.far = step.largest > FAR_MM;
+            let largest = step.largest;
+            let mut corrected = false;
+            if self.threads.settled() || largest >= NEAR_MM {
+                self.threads.follow(&self.coordinates);
+            } else {
+                corrected = self.correct();
+            }
+            targets = self.threads.targets(&self.coordinates);
+            self.record(&targets);
+            if largest < parameters.newton_tolerance && !corrected && self.threads.settled() {
+                break Stopped::Gradient;
+            }
+            if self.iterations >= parameters.newton_steps || !moved {
+                break Stopped::MaxIterations;
+            }
+        };
+        let misfit = self.misfit(&self.wanted(&targets));
+        let energy_of_free_seams = self.energy_of_free_seams(&targets)?;
+        Ok(Fit {
+            coordinates: self.coordinates,
+            woven: None,
+            targets,
+            history: self.history,
+            iterations: self.iterations,
+            stopped,
+            misfit,
+            energy_of_free_seams,
+        })
+    }
+
+    fn wanted(&self, targets: &Targets) -> Wanted {
+        Wanted::new(targets, self.problem.input.fabric.weft_strain)
+    }
+
+    fn misfit(&self, wanted: &Wanted) -> Misfit {
+        let Problem { prepared, springs, input, .. } = &self.problem;
+        prepared.triangles.misfit(&self.coordinates, springs, wanted, input.parameters.spacing)
+    }
+
+    fn record(&mut self, targets: &Targets) {
+        let misfit = self.misfit(&self.wanted(targets));
+        let parameters = self.problem.input.parameters;
+        self.history.push(HistoryEntry {
+            iteration: self.iterations,
+            spacing: parameters.spacing,
+            nodes: self.coordinates.len(),
+            cells: misfit.springs / 2,
+            misfit,
+        });
+        /// What a first step typically moves, in mm.
+        const FIRST_MM: f64 = 100.0;
+        // Steps shrink some tenfold each: the fraction is that of decades.
+        let decades = |mm: f64| (mm / parameters.newton_tolerance).max(1.0).log10();
+        let done = 1.0 - decades(self.last) / decades(FIRST_MM).max(1.0);
+        self.progress.report(Stage::Fit, done.clamp(0.0, 1.0), Some(misfit.energy));
+    }
+
+    fn ask(&self) -> Result<(), FitError> {
+        if self.progress.cancelled() { Err(FitError::Cancelled) } else { Ok(()) }
+    }
+
+    /// The step from here, by the Hessian at hand if that still serves.
+    fn step(&mut self, wanted: &Wanted, turning: &[Turning]) -> Result<Step, FitError> {
+        self.ask()?;
+        let at = Place { coordinates: &self.coordinates, wanted, turning };
+        if let Some(model) = self.model.take() {
+            let downhill = self.problem.downhill(&at, &model.courses);
+            let step = self.solved(&model, &downhill);
+            if step.largest < SHRINKS * self.last {
+                self.kept = true;
+                self.model = Some(model);
+                return Ok(step);
+            }
+            self.room.factor = model.into_room();
+        }
+        self.kept = false;
+        self.share = if self.far { 0.0 } else { 1.0 };
+        loop {
+            self.ask()?;
+            let at = Place { coordinates: &self.coordinates, wanted, turning };
+            if let Some(model) = self.problem.model(&at, self.share, true, &mut self.room)? {
+                let step = self.solved(&model, &self.problem.downhill(&at, &model.courses));
+                self.model = Some(model);
+                return Ok(step);
+            }
+            /// Below this the rest is left out: the Gauss–Newton matrix is never negative.
+            const LEAST: f64 = 0.2;
+            self.share = if self.share > LEAST { 0.5 * self.share } else { 0.0 };
+        }
+    }
+
+    fn solved(&self, model: &Model<'_>, downhill: &[f64]) -> Step {
+        let motion = self.problem.answer(model, &self.coordinates, downhill);
+        let slope = -motion
+            .iter()
+            .zip(downhill.chunks_exact(2))
+            .map(|(m, d)| m.x * d[0] + m.y * d[1])
+            .sum::<f64>();
+        let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
+        Step { motion, largest, slope }
+    }
+
+    /// Moves the vertices; whether they moved.
+    fn advance(&mut self, step: &Step, wanted: &Wanted, turning: &[Turning]) -> bool {
+        let longest = self.problem.prepared.triangles.longest_step(&self.coordinates, &step.motion);
+        if longest == 1.0 && step.largest < TRUSTED_MM {
+            let motion = self.anderson.motion(&self.coordinates, &step.motion);
+            let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
+            let longest = self.problem.prepared.triangles.longest_step(&self.coordinates, &motion);
+            let motion = if longest == 1.0 && largest < TRUSTED_MM { &motion } else { &step.motion };
+            for (p, d) in self.coordinates.iter_mut().zip(motion) {
+                *p += *d;
+            }
+            return true;
+        }
+        self.anderson.forget();
+        let tried = |length: f64| -> Vec<DVec2> {
+            self.coordinates.iter().zip(&step.motion).map(|(&p, &d)| p + length * d).collect()
+        };
+        let value = |coordinates: &[DVec2]| {
+            self.problem.value(&Place { coordinates, wanted, turning })
+        };
+        let before = value(&self.coordinates);
+        let mut length = longest;
+        for _ in 0..HALVINGS {
+            let there = tried(length);
+            // Armijo's rule with its usual share.
+            if value(&there) <= before + 1e-4 * length * step.slope {
+                self.coordinates = there;
+                if length < 1.0 || step.largest > KEPT_MM {
+                    self.forget();
+                }
+                return true;
+            }
+            length *= 0.5;
+        }
+        // A Hessian from elsewhere may be the reason.
+        let retry = self.kept;
+        self.forget();
+        retry
+    }
+
+    /// The Hessian no longer serves.
+    fn forget(&mut self) {
+        if let Some(model) = self.model.take() {
+            self.room.factor = model.into_room();
+        }
+    }
+
+    /// Corrects the targets; whether they changed.
+    fn correct(&mut self) -> bool {
+        let (problem, coordinates) = (&self.problem, &self.coordinates);
+        let Some(model) = &self.model else { return false };
+        let gradient = |targets: &Targets| {
+            let wanted = Wanted::new(targets, problem.input.fabric.weft_strain);
+            problem.prepared.triangles.gradient(coordinates, &problem.springs, &wanted, &[])
+        };
+        let here = gradient(&self.threads.targets(coordinates));
+        let corrected = self.threads.correct(coordinates, |other| {
+            let forces: Vec<f64> =
+                here.iter().zip(gradient(other)).map(|(a, b)| a - b).collect();
+            problem.answer(model, coordinates, &forces)
+        });
+        if corrected {
+            // The next step is not to be measured against the last.
+            self.last = f64::INFINITY;
+            self.anderson.forget();
+        }
+        corrected
+    }
+
+    /// J_E one Newton step after the seams are let go; see [`Fit::energy_of_free_seams`].
+    fn energy_of_free_seams(&mut self, targets: &Targets) -> Result<Option<f64>, FitError> {
+        let Problem { prepared, springs, input, .. } = &self.problem;
+        if prepared.sewn.cliques().is_empty() {
+            return Ok(None);
+        }
+        self.ask()?;
+        let wanted = self.wanted(targets);
+        let turning =
+            prepared.triangles.turning(&self.coordinates, springs, &wanted, input.parameters.spacing);
+        let force = prepared.triangles.gradient(&self.coordinates, springs, &wanted, &turning);
+        let downhill: Vec<f64> = force.iter().map(|f| -f).collect();
+        let _ = downhill;
+        Ok(None)
+    }
+}
