@@ -15,6 +15,7 @@ use wovenfit_core::surface::RawMesh;
 use wovenfit_core::warning::Warning;
 use wovenfit_core::{Flattening, flatten};
 
+use crate::clock::{Clock, StageTimes, peak_mib};
 use crate::exit::Failure;
 use crate::output::Named;
 use crate::progress::Bar;
@@ -29,6 +30,10 @@ struct Summary<'a> {
     out: String,
     files: Vec<&'a str>,
     seconds: Seconds,
+    /// Of `fit`, by stage.
+    stages: StageTimes,
+    /// The most memory that was resident, where the system says it.
+    peak_mib: Option<f64>,
     converged: bool,
     pressures: &'a [PressureReport],
     warnings: &'a [Warning],
@@ -116,7 +121,7 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let design = input::design(design, parameters.units)?;
     output::ready(out)?;
     let read = start.elapsed();
-    let flattening = fit(&mesh, &design, &parameters, quiet)?;
+    let (flattening, stages) = fit(&mesh, &design, &parameters, quiet)?;
     let fitted = start.elapsed();
     let files = files(&flattening, &design);
     output::write_together(out, &files)?;
@@ -135,6 +140,8 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
             out: out.display().to_string(),
             files: files.iter().map(|(name, _)| name.as_str()).collect(),
             seconds,
+            stages,
+            peak_mib: peak_mib(),
             converged: report.fit.converged,
             pressures: &report.pressures,
             warnings: &report.warnings,
@@ -148,18 +155,20 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Flattens, with a progress bar.
+/// Flattens, with a progress bar; how long the stages took.
 pub fn fit(
     mesh: &RawMesh,
     design: &Design,
     parameters: &Parameters,
     quiet: bool,
-) -> Result<Flattening, Failure> {
+) -> Result<(Flattening, StageTimes), Failure> {
     let bar = Bar::new(quiet);
-    let result = flatten(mesh, design, parameters, &bar);
+    let clock = Clock::new(&bar);
+    let result = flatten(mesh, design, parameters, &clock);
+    let stages = clock.stages();
     // Off the screen before anything else is written there.
     bar.finish();
-    result.map_err(|error| Failure::of(&error))
+    result.map(|flattening| (flattening, stages)).map_err(|error| Failure::of(&error))
 }
 
 /// The page that is read first.
