@@ -32,7 +32,7 @@ use rayon::prelude::*;
 
 use super::places::Places;
 use super::sampling::Sampling;
-use crate::geometry::{Curvature, Locator, ScaleCurvature, ScaleFit, ShapeOperator};
+use crate::geometry::{Curvature, Locator, ScaleCurvature, ScaleFit, ShapeOperator, SurfacePoint};
 use crate::parameters::Parameters;
 use crate::surface::Surface;
 
@@ -129,14 +129,7 @@ impl Bending {
         let curvature = Curvature::new(scan, parameters);
         let radius = parameters.curvature_radius;
         let sampling = Sampling::new(places, mean_edge, SPACING_SHARE * radius);
-        let shapes: Vec<ShapeOperator> = sampling
-            .seeds
-            .par_iter()
-            .map(|&place| {
-                let point = locator.closest(places.point(place));
-                point.map_or_else(flat, |(point, _)| curvature.at(&point))
-            })
-            .collect();
+        let shapes = curvature.at_all(&on_scan(&locator, places, &sampling));
         let normals: Vec<DVec3> = shapes.iter().map(|shape| shape.normal).collect();
         let tensors: Vec<DMat3> = shapes.iter().map(ShapeOperator::tensor).collect();
         let fine = match curvature {
@@ -155,8 +148,11 @@ impl Bending {
     }
 }
 
-fn flat() -> ShapeOperator {
-    ShapeOperator::from_tensor(DVec3::Z, DMat3::ZERO)
+/// The points of the scan under the computed places.
+fn on_scan(locator: &Locator, places: &Places, sampling: &Sampling) -> Vec<SurfacePoint> {
+    // A brace's scan has triangles, and then there is a nearest point.
+    let nearest = |&place: &usize| Some(locator.closest(places.point(place))?.0);
+    sampling.seeds.par_iter().filter_map(nearest).collect()
 }
 
 fn read_fine(
@@ -167,14 +163,10 @@ fn read_fine(
 ) -> Result<Fine, Unreadable> {
     let curvature = ScaleCurvature::new(scan, FINE_RADIUS_MM);
     let sampling = Sampling::new(places, mean_edge, SPACING_SHARE * FINE_RADIUS_MM);
-    let fits: Vec<Option<ScaleFit>> = sampling
-        .seeds
-        .par_iter()
-        .map(|&place| {
-            let (point, _) = locator.closest(places.point(place))?;
-            Some(curvature.fit(&point))
-                .filter(|fit| fit.radius_used > 0.0 && fit.radius_used <= MOST_GROWN_MM)
-        })
+    let fits: Vec<Option<ScaleFit>> = curvature
+        .fit_all(&on_scan(locator, places, &sampling))
+        .into_iter()
+        .map(|fit| Some(fit).filter(|f| f.radius_used > 0.0 && f.radius_used <= MOST_GROWN_MM))
         .collect();
     let noise = |fit: &ScaleFit| fit.residual_mm / (1.0 - COEFFICIENTS / fit.points as f64).sqrt();
     let noise_mm = median(fits.iter().flatten().map(noise).collect())
