@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::thread;
 use std::time::Instant;
 
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
@@ -187,12 +188,19 @@ pub fn files(flattening: &Flattening, design: &Design) -> Vec<Named> {
         pressure_kpa: Some(&field.pressure_kpa),
         limit_kpa: design.limits.max_kpa.unwrap_or(Limits::WARN_KPA),
     };
+    // The meshes while the page's pictures are drawn.
+    let (meshes, page) = thread::scope(|scope| {
+        let page = scope.spawn(|| report_html(&page));
+        let meshes = [worn_obj(disk, coordinates), flat_obj(disk, coordinates)];
+        (meshes, page.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    });
+    let [worn, flat] = meshes;
     [
-        ("worn.obj", worn_obj(disk, coordinates)),
-        ("flat.obj", flat_obj(disk, coordinates)),
+        ("worn.obj", worn),
+        ("flat.obj", flat),
         ("pattern.svg", pattern_svg(drawing)),
         ("report.json", report.to_json()),
-        (PAGE, report_html(&page)),
+        (PAGE, page),
     ]
     .map(|(name, text)| (name.to_owned(), text.into_bytes()))
     .into()
