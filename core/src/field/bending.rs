@@ -33,7 +33,7 @@ use rayon::prelude::*;
 use super::places::Places;
 use super::sampling::Sampling;
 use crate::geometry::{Curvature, Locator, ScaleCurvature, ScaleFit, ShapeOperator, SurfacePoint};
-use crate::parameters::Parameters;
+use crate::parameters::{CurvatureEstimate, Parameters};
 use crate::surface::Surface;
 
 /// The smaller radius over which pressure is stated, in mm: about a crest's own.
@@ -126,18 +126,25 @@ impl Bending {
     pub(super) fn new(scan: &Surface, places: &Places, parameters: &Parameters) -> Self {
         let locator = Locator::new(scan);
         let mean_edge = scan.mean_edge_length();
-        let curvature = Curvature::new(scan, parameters);
         let radius = parameters.curvature_radius;
-        let sampling = Sampling::new(places, mean_edge, SPACING_SHARE * radius);
-        let shapes = curvature.at_all(&on_scan(&locator, places, &sampling));
+        let coarse = || {
+            let curvature = Curvature::new(scan, parameters);
+            let sampling = Sampling::new(places, mean_edge, SPACING_SHARE * radius);
+            let shapes = curvature.at_all(&on_scan(&locator, places, &sampling));
+            (sampling, shapes)
+        };
+        let finer = parameters.curvature == CurvatureEstimate::Scale && radius > FINE_RADIUS_MM;
+        let fine = || {
+            if finer {
+                read_fine(scan, &locator, places, mean_edge)
+            } else {
+                Err(Unreadable::NotFiner)
+            }
+        };
+        // What is prepared for either is done one after the other.
+        let ((sampling, shapes), fine) = rayon::join(coarse, fine);
         let normals: Vec<DVec3> = shapes.iter().map(|shape| shape.normal).collect();
         let tensors: Vec<DMat3> = shapes.iter().map(ShapeOperator::tensor).collect();
-        let fine = match curvature {
-            Curvature::Scale(_) if radius > FINE_RADIUS_MM => {
-                read_fine(scan, &locator, places, mean_edge)
-            }
-            _ => Err(Unreadable::NotFiner),
-        };
         let unit = |n: DVec3| n.try_normalize().unwrap_or(DVec3::Z);
         Self {
             normal: sampling.spread(&normals).into_iter().map(unit).collect(),
