@@ -49,7 +49,7 @@ pub(super) fn push_whole(text: &mut String, mut number: u64, width: usize) {
         number /= 10;
     }
     let start = start.min(digits.len() - width);
-    digits[start..].iter().for_each(|&digit| text.push(char::from(digit)));
+    text.push_str(std::str::from_utf8(&digits[start..]).unwrap_or_default());
 }
 
 /// The size of `value` in units of its last decimal, correctly rounded: the same as the standard
