@@ -224,7 +224,7 @@ fn png(width: usize, height: usize, indices: &[u8], palette: &[Rgb]) -> Vec<u8> 
     let mut opacity = vec![255; palette.len() - 1];
     opacity.push(0);
     encoder.set_trns(opacity);
-    encoder.set_compression(png::Compression::High);
+    encoder.set_compression(png::Compression::Balanced);
     // Indices are no amounts: neighbours that differ by one are as different as any.
     encoder.set_filter(png::Filter::NoFilter);
     encoder
