@@ -124,25 +124,22 @@ pub(super) struct Bending {
 impl Bending {
     /// Curvature of `scan`, the whole surface, at the places.
     pub(super) fn new(scan: &Surface, places: &Places, parameters: &Parameters) -> Self {
-        let locator = Locator::new(scan);
         let mean_edge = scan.mean_edge_length();
         let radius = parameters.curvature_radius;
-        let coarse = || {
-            let curvature = Curvature::new(scan, parameters);
-            let sampling = Sampling::new(places, mean_edge, SPACING_SHARE * radius);
-            let shapes = curvature.at_all(&on_scan(&locator, places, &sampling));
-            (sampling, shapes)
-        };
         let finer = parameters.curvature == CurvatureEstimate::Scale && radius > FINE_RADIUS_MM;
-        let fine = || {
-            if finer {
-                read_fine(scan, &locator, places, mean_edge)
-            } else {
-                Err(Unreadable::NotFiner)
-            }
-        };
+        let (sampling, fine) = rayon::join(
+            || Sampling::new(places, mean_edge, SPACING_SHARE * radius),
+            || finer.then(|| Sampling::new(places, mean_edge, SPACING_SHARE * FINE_RADIUS_MM)),
+        );
+        let under = Under::new(scan, places, [Some(&sampling), fine.as_ref()]);
         // What is prepared for either is done one after the other.
-        let ((sampling, shapes), fine) = rayon::join(coarse, fine);
+        let (shapes, fine) = rayon::join(
+            || Curvature::new(scan, parameters).at_all(&under.of(&sampling)),
+            || match &fine {
+                Some(sampling) => read_fine(scan, &under, sampling, mean_edge),
+                None => Err(Unreadable::NotFiner),
+            },
+        );
         let normals: Vec<DVec3> = shapes.iter().map(|shape| shape.normal).collect();
         let tensors: Vec<DMat3> = shapes.iter().map(ShapeOperator::tensor).collect();
         let unit = |n: DVec3| n.try_normalize().unwrap_or(DVec3::Z);
@@ -155,23 +152,42 @@ impl Bending {
     }
 }
 
-/// The points of the scan under the computed places.
-fn on_scan(locator: &Locator, places: &Places, sampling: &Sampling) -> Vec<SurfacePoint> {
-    // A brace's scan has triangles, and then there is a nearest point.
-    let nearest = |&place: &usize| Some(locator.closest(places.point(place))?.0);
-    sampling.seeds.par_iter().filter_map(nearest).collect()
+/// The points of the scan under the computed places, each looked for once.
+struct Under {
+    /// By place; none where nothing is computed.
+    points: Vec<Option<SurfacePoint>>,
+}
+
+impl Under {
+    fn new(scan: &Surface, places: &Places, samplings: [Option<&Sampling>; 2]) -> Self {
+        let locator = Locator::new(scan);
+        let mut wanted = vec![false; places.count()];
+        for &seed in samplings.into_iter().flatten().flat_map(|sampling| &sampling.seeds) {
+            wanted[seed] = true;
+        }
+        let nearest = |place: usize| Some(locator.closest(places.point(place))?.0);
+        let points = (0..places.count())
+            .into_par_iter()
+            .map(|place| if wanted[place] { nearest(place) } else { None })
+            .collect();
+        Self { points }
+    }
+
+    fn of(&self, sampling: &Sampling) -> Vec<SurfacePoint> {
+        // A brace's scan has triangles, and then there is a nearest point.
+        sampling.seeds.iter().filter_map(|&seed| self.points[seed]).collect()
+    }
 }
 
 fn read_fine(
     scan: &Surface,
-    locator: &Locator,
-    places: &Places,
+    under: &Under,
+    sampling: &Sampling,
     mean_edge: f64,
 ) -> Result<Fine, Unreadable> {
     let curvature = ScaleCurvature::new(scan, FINE_RADIUS_MM);
-    let sampling = Sampling::new(places, mean_edge, SPACING_SHARE * FINE_RADIUS_MM);
     let fits: Vec<Option<ScaleFit>> = curvature
-        .fit_all(&on_scan(locator, places, &sampling))
+        .fit_all(&under.of(sampling))
         .into_iter()
         .map(|fit| Some(fit).filter(|f| f.radius_used > 0.0 && f.radius_used <= MOST_GROWN_MM))
         .collect();

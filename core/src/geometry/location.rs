@@ -76,6 +76,9 @@ pub fn closest_on_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
 /// Triangles in a leaf of the tree.
 const IN_LEAF: usize = 4;
 
+/// Nodes that wait at most: one a level, and triangles are numbered by 32 bits.
+const DEEPEST: usize = 40;
+
 /// Bits of a place along one axis on the curve on which triangles are ordered.
 const BITS: u32 = 21;
 
@@ -144,16 +147,23 @@ impl Locator {
         // Square of the distance, triangle and place in it.
         let mut best = (f64::INFINITY, u32::MAX, DVec3::X);
         // The nearer child is looked at first; one of the farther waits a level.
-        let mut waiting = Vec::with_capacity(32);
-        waiting.push((squared_gap(&self.boxes[1], place), 1));
-        while let Some((gap, node)) = waiting.pop() {
+        let mut waiting = [(0.0, 1); DEEPEST];
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let (gap, node) = waiting[count];
             if gap > best.0 {
                 continue;
             }
             if node < leaves {
                 let children = [2 * node, 2 * node + 1];
                 let [a, b] = children.map(|k| (squared_gap(&self.boxes[k], place), k));
-                waiting.extend(if a.0 <= b.0 { [b, a] } else { [a, b] });
+                waiting[count..count + 2].copy_from_slice(&if a.0 <= b.0 {
+                    [b, a]
+                } else {
+                    [a, b]
+                });
+                count += 2;
                 continue;
             }
             let first = (node - leaves) * IN_LEAF;
