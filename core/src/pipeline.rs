@@ -77,9 +77,11 @@ pub fn flatten(
     begin(Stage::Surface)?;
     let Validated { surface, mut warnings, .. } =
         validate(raw, &surface_options(design, parameters))?;
-    let measures = measure(&surface, parameters.girth_step);
+    let (measures, calm) =
+        rayon::join(|| measure(&surface, parameters.girth_step), || calm(&surface, parameters));
     warnings.extend(guard_size(&measures, design.unit, parameters)?);
-    let Calm { surface, radius, warning } = calm(surface, parameters);
+    let Calm { smoothed, radius, warning } = calm;
+    let surface = smoothed.unwrap_or(surface);
     // The measures are those of the brace too if it covers all of the surface as it was given.
     let whole = warning.is_none() && design.region.is_empty();
     let measures = whole.then_some(measures);
