@@ -49,7 +49,8 @@ pub fn check(raw: &RawMesh, facing: Option<Facing>, parameters: &Parameters) -> 
 
 fn describe(validated: Validated, unit: LengthUnit, parameters: &Parameters) -> CheckReport {
     let Validated { surface, mut warnings, .. } = validated;
-    let measures = measure(&surface, parameters.girth_step);
+    let (measures, calm) =
+        rayon::join(|| measure(&surface, parameters.girth_step), || calm(&surface, parameters));
     let mut defects = Vec::new();
     match guard_unit(&measures, unit, parameters.units.is_some()) {
         Ok(said) => warnings.extend(said),
@@ -57,7 +58,8 @@ fn describe(validated: Validated, unit: LengthUnit, parameters: &Parameters) -> 
             defects.push(of_the_whole("unit", error.to_string()));
         }
     }
-    let Calm { surface, radius, warning } = calm(surface, parameters);
+    let Calm { smoothed, radius, warning } = calm;
+    let surface = smoothed.unwrap_or(surface);
     warnings.extend(warning);
     let parameters = &Parameters { curvature_radius: radius, ..parameters.clone() };
     let shape = shape_of(&surface);

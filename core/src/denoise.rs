@@ -18,8 +18,8 @@ const LARGEST_MM: f64 = 20.0;
 
 /// A surface fit to be measured.
 pub(crate) struct Calm {
-    /// The surface, smoothed if it was noisy.
-    pub surface: Surface,
+    /// The surface smoothed, if it was noisy.
+    pub smoothed: Option<Surface>,
     /// Radius over which its curvature is read, in mm.
     pub radius: f64,
     /// What was done.
@@ -27,22 +27,22 @@ pub(crate) struct Calm {
 }
 
 /// Smooths a noisy scan, and chooses the radius of curvature that its noise allows.
-pub(crate) fn calm(surface: Surface, parameters: &Parameters) -> Calm {
+pub(crate) fn calm(surface: &Surface, parameters: &Parameters) -> Calm {
     let radius = parameters.curvature_radius;
-    let noise = if parameters.denoise == Denoise::Off { 0.0 } else { noise(&surface) };
+    let noise = if parameters.denoise == Denoise::Off { 0.0 } else { noise(surface) };
     if noise <= HARMLESS_MM {
-        return Calm { surface, radius, warning: None };
+        return Calm { smoothed: None, radius, warning: None };
     }
     // The blur falls with the cube of the radius: its square, and the root of the number of vertices.
-    let excess = curvature_noise(&surface, noise, radius) / BLUR;
+    let excess = curvature_noise(surface, noise, radius) / BLUR;
     let allowed = (radius * excess.cbrt()).clamp(radius, LARGEST_MM.max(radius));
-    let smoothed = smooth(&surface, radius);
+    let smoothed = Some(smooth(surface, radius));
     let message = format!(
         "the scan's noise is about {noise:.2} mm: its surface was smoothed over {radius:.0} mm, and \
          curvature is read over {allowed:.1} mm, at which it is known to about {:.1} per m; \
          bony crests narrower than that are flattened, check the pressure there",
-        1000.0 * curvature_noise(&surface, noise, allowed)
+        1000.0 * curvature_noise(surface, noise, allowed)
     );
     let warning = Some(Warning::new("noisy_scan", message));
-    Calm { surface: smoothed, radius: allowed, warning }
+    Calm { smoothed, radius: allowed, warning }
 }

@@ -79,8 +79,14 @@ pub fn flatten(
     begin(Stage::Surface)?;
     let Validated { surface, mut warnings, .. } =
         validate(raw, &surface_options(design, parameters))?;
-    warnings.extend(guard_size(&surface, design.unit, parameters)?);
-    let Calm { surface, radius, warning } = calm(surface, parameters);
+    let (measures, calm) =
+        rayon::join(|| measure(&surface, parameters.girth_step), || calm(&surface, parameters));
+    warnings.extend(guard_size(&measures, design.unit, parameters)?);
+    let Calm { smoothed, radius, warning } = calm;
+    let surface = smoothed.unwrap_or(surface);
+    // The measures are those of the brace too if it covers all of the surface as it was given.
+    let whole = warning.is_none() && design.region.is_empty();
+    let measures = whole.then_some(measures);
     warnings.extend(warning);
     // What the scan's noise allows goes before what was asked for.
     let given = parameters;
@@ -130,7 +136,7 @@ pub fn flatten(
         pressure_model: design.pressure_model,
         parameters,
     });
-    let measures = measure(&region.surface, parameters.girth_step);
+    let measures = measures.unwrap_or_else(|| measure(&region.surface, parameters.girth_step));
     let found = Found {
         design,
         parameters: given,
@@ -164,13 +170,12 @@ pub(crate) fn surface_options(design: &Design, parameters: &Parameters) -> Surfa
 
 /// Refuses a limb of impossible girth unless its unit was given for the surface itself.
 pub(crate) fn guard_size(
-    surface: &Surface,
+    measures: &Measures,
     design_unit: Option<LengthUnit>,
     parameters: &Parameters,
 ) -> Result<Option<Warning>, Error> {
     let unit = parameters.units.or(design_unit).unwrap_or(LengthUnit::Millimetre);
-    let measures = measure(surface, parameters.girth_step);
-    Ok(guard_unit(&measures, unit, parameters.units.is_some())?)
+    Ok(guard_unit(measures, unit, parameters.units.is_some())?)
 }
 
 /// The cut with the end at the designer's first marker as the one near the body.

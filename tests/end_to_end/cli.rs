@@ -146,6 +146,13 @@ fn json_goes_to_standard_output_and_quiet_is_quiet() {
     for key in ["read", "fit", "total"] {
         assert!(said["seconds"][key].as_f64().is_some_and(|s| s >= 0.0), "{said}");
     }
+    let stages = said["stages"].as_object().unwrap();
+    for stage in ["surface", "cut", "fit", "report"] {
+        assert!(stages[stage].as_f64().is_some_and(|s| s >= 0.0), "{said}");
+    }
+    let whole: f64 = stages.values().filter_map(Value::as_f64).sum();
+    assert!(whole <= said["seconds"]["fit"].as_f64().unwrap(), "{said}");
+    assert_eq!(said["peak_mib"].as_f64().is_some_and(|m| m > 1.0), cfg!(target_os = "linux"));
     let quiet = bench.flatten(&mesh, &design, &[&args[..], &["--quiet"]].concat()).succeeded();
     assert_eq!(quiet.stdout, "");
     // No bar, no times; what the designer must know is said all the same.

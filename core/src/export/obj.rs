@@ -6,7 +6,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::number::fixed;
+use super::number::{push_fixed, push_whole};
 use crate::surface::{RawMesh, Surface};
 
 const DECIMALS: usize = 9;
@@ -30,8 +30,14 @@ pub fn worn_obj(disk: &Surface, coordinates: &[DVec2]) -> String {
     disk.points().iter().for_each(|p| push_point(&mut text, "v", &p.to_array()));
     coordinates.iter().for_each(|c| push_point(&mut text, "vt", &c.to_array()));
     for triangle in disk.triangles() {
-        let [a, b, c] = triangle.map(|v| v.index() + 1);
-        text.push_str(&format!("f {a}/{a} {b}/{b} {c}/{c}\n"));
+        text.push('f');
+        for number in triangle.map(|v| v.index() as u64 + 1) {
+            text.push(' ');
+            push_whole(&mut text, number, 1);
+            text.push('/');
+            push_whole(&mut text, number, 1);
+        }
+        text.push('\n');
     }
     text
 }
@@ -80,14 +86,17 @@ fn push_point(text: &mut String, key: &str, coordinates: &[f64]) {
     text.push_str(key);
     for coordinate in coordinates {
         text.push(' ');
-        text.push_str(&fixed(*coordinate, DECIMALS));
+        push_fixed(text, *coordinate, DECIMALS);
     }
     text.push('\n');
 }
 
 fn push_face(text: &mut String, corners: impl Iterator<Item = usize>) {
     text.push('f');
-    corners.for_each(|corner| text.push_str(&format!(" {}", corner + 1)));
+    for corner in corners {
+        text.push(' ');
+        push_whole(text, corner as u64 + 1, 1);
+    }
     text.push('\n');
 }
 

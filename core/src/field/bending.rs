@@ -32,8 +32,8 @@ use rayon::prelude::*;
 
 use super::places::Places;
 use super::sampling::Sampling;
-use crate::geometry::{Curvature, Locator, ScaleCurvature, ScaleFit, ShapeOperator};
-use crate::parameters::Parameters;
+use crate::geometry::{Curvature, Locator, ScaleCurvature, ScaleFit, ShapeOperator, SurfacePoint};
+use crate::parameters::{CurvatureEstimate, Parameters};
 use crate::surface::Surface;
 
 /// The smaller radius over which pressure is stated, in mm: about a crest's own.
@@ -124,27 +124,24 @@ pub(super) struct Bending {
 impl Bending {
     /// Curvature of `scan`, the whole surface, at the places.
     pub(super) fn new(scan: &Surface, places: &Places, parameters: &Parameters) -> Self {
-        let locator = Locator::new(scan);
         let mean_edge = scan.mean_edge_length();
-        let curvature = Curvature::new(scan, parameters);
         let radius = parameters.curvature_radius;
-        let sampling = Sampling::new(places, mean_edge, SPACING_SHARE * radius);
-        let shapes: Vec<ShapeOperator> = sampling
-            .seeds
-            .par_iter()
-            .map(|&place| {
-                let point = locator.closest(places.point(place));
-                point.map_or_else(flat, |(point, _)| curvature.at(&point))
-            })
-            .collect();
+        let finer = parameters.curvature == CurvatureEstimate::Scale && radius > FINE_RADIUS_MM;
+        let (sampling, fine) = rayon::join(
+            || Sampling::new(places, mean_edge, SPACING_SHARE * radius),
+            || finer.then(|| Sampling::new(places, mean_edge, SPACING_SHARE * FINE_RADIUS_MM)),
+        );
+        let under = Under::new(scan, places, [Some(&sampling), fine.as_ref()]);
+        // What is prepared for either is done one after the other.
+        let (shapes, fine) = rayon::join(
+            || Curvature::new(scan, parameters).at_all(&under.of(&sampling)),
+            || match &fine {
+                Some(sampling) => read_fine(scan, &under, sampling, mean_edge),
+                None => Err(Unreadable::NotFiner),
+            },
+        );
         let normals: Vec<DVec3> = shapes.iter().map(|shape| shape.normal).collect();
         let tensors: Vec<DMat3> = shapes.iter().map(ShapeOperator::tensor).collect();
-        let fine = match curvature {
-            Curvature::Scale(_) if radius > FINE_RADIUS_MM => {
-                read_fine(scan, &locator, places, mean_edge)
-            }
-            _ => Err(Unreadable::NotFiner),
-        };
         let unit = |n: DVec3| n.try_normalize().unwrap_or(DVec3::Z);
         Self {
             normal: sampling.spread(&normals).into_iter().map(unit).collect(),
@@ -155,26 +152,44 @@ impl Bending {
     }
 }
 
-fn flat() -> ShapeOperator {
-    ShapeOperator::from_tensor(DVec3::Z, DMat3::ZERO)
+/// The points of the scan under the computed places, each looked for once.
+struct Under {
+    /// By place; none where nothing is computed.
+    points: Vec<Option<SurfacePoint>>,
+}
+
+impl Under {
+    fn new(scan: &Surface, places: &Places, samplings: [Option<&Sampling>; 2]) -> Self {
+        let locator = Locator::new(scan);
+        let mut wanted = vec![false; places.count()];
+        for &seed in samplings.into_iter().flatten().flat_map(|sampling| &sampling.seeds) {
+            wanted[seed] = true;
+        }
+        let nearest = |place: usize| Some(locator.closest(places.point(place))?.0);
+        let points = (0..places.count())
+            .into_par_iter()
+            .map(|place| if wanted[place] { nearest(place) } else { None })
+            .collect();
+        Self { points }
+    }
+
+    fn of(&self, sampling: &Sampling) -> Vec<SurfacePoint> {
+        // A brace's scan has triangles, and then there is a nearest point.
+        sampling.seeds.iter().filter_map(|&seed| self.points[seed]).collect()
+    }
 }
 
 fn read_fine(
     scan: &Surface,
-    locator: &Locator,
-    places: &Places,
+    under: &Under,
+    sampling: &Sampling,
     mean_edge: f64,
 ) -> Result<Fine, Unreadable> {
     let curvature = ScaleCurvature::new(scan, FINE_RADIUS_MM);
-    let sampling = Sampling::new(places, mean_edge, SPACING_SHARE * FINE_RADIUS_MM);
-    let fits: Vec<Option<ScaleFit>> = sampling
-        .seeds
-        .par_iter()
-        .map(|&place| {
-            let (point, _) = locator.closest(places.point(place))?;
-            Some(curvature.fit(&point))
-                .filter(|fit| fit.radius_used > 0.0 && fit.radius_used <= MOST_GROWN_MM)
-        })
+    let fits: Vec<Option<ScaleFit>> = curvature
+        .fit_all(&under.of(sampling))
+        .into_iter()
+        .map(|fit| Some(fit).filter(|f| f.radius_used > 0.0 && f.radius_used <= MOST_GROWN_MM))
         .collect();
     let noise = |fit: &ScaleFit| fit.residual_mm / (1.0 - COEFFICIENTS / fit.points as f64).sqrt();
     let noise_mm = median(fits.iter().flatten().map(noise).collect())

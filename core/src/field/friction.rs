@@ -90,6 +90,7 @@ impl Pull {
         let computed: Vec<(DVec3, f64)> = sampling
             .seeds
             .par_iter()
+            .with_min_len(64)
             .map_init(
                 || places.visits(),
                 |visits, &seed| {

@@ -20,14 +20,19 @@ const FINE_SHARE: f64 = 0.7;
 /// neighbouring pieces' computed places.
 const REACH: f64 = 2.0;
 
+/// Places that one thread looks at at least: a search begins with clearing what it remembers.
+const AT_ONCE: usize = 256;
+
 /// Places at which something is computed.
 pub(super) struct Sampling {
     /// The computed places.
     pub(super) seeds: Vec<usize>,
     /// Distance between them in mm, unless every place is one.
     pub(super) spacing: Option<f64>,
+    /// For every place where its computed ones begin in `weights`; one more at the end.
+    starts: Vec<usize>,
     /// For every place the computed ones (by number) with their weights.
-    weights: Vec<Vec<(u32, f64)>>,
+    weights: Vec<(u32, f64)>,
 }
 
 impl Sampling {
@@ -35,23 +40,44 @@ impl Sampling {
     pub(super) fn new(places: &Places, mean_edge: f64, spacing: f64) -> Self {
         if mean_edge >= FINE_SHARE * spacing {
             let seeds = (0..places.count()).collect();
-            return Self { seeds, spacing: None, weights: Vec::new() };
+            return Self { seeds, spacing: None, starts: Vec::new(), weights: Vec::new() };
         }
         let seeds = seeds(places, spacing);
-        let mut near: Vec<Vec<(u32, f64)>> = vec![Vec::new(); places.count()];
-        let mut visits = places.visits();
-        for (number, &seed) in seeds.iter().enumerate() {
-            for (place, distance) in places.within(&mut visits, seed, REACH * spacing) {
+        let reached: Vec<Vec<(usize, f64)>> = seeds
+            .par_iter()
+            .with_min_len(AT_ONCE)
+            .map_init(
+                || places.visits(),
+                |visits, &seed| places.within(visits, seed, REACH * spacing),
+            )
+            .collect();
+        let mut starts = vec![0; places.count() + 1];
+        for &(place, _) in reached.iter().flatten() {
+            starts[place + 1] += 1;
+        }
+        for k in 0..places.count() {
+            starts[k + 1] += starts[k];
+        }
+        let mut near = vec![(0, 0.0); starts[places.count()]];
+        let mut filled = starts.clone();
+        for (number, reached) in reached.iter().enumerate() {
+            for &(place, distance) in reached {
                 // As many as places, whose indices fit 32 bits.
-                near[place].push((number as u32, distance));
+                near[filled[place]] = (number as u32, distance);
+                filled[place] += 1;
             }
         }
-        let weights = near
-            .par_iter()
-            .enumerate()
-            .map(|(place, near)| weights(places, &seeds, place, near, spacing))
-            .collect();
-        Self { seeds, spacing: Some(spacing), weights }
+        let mut rest = near.as_mut_slice();
+        let mut parts = Vec::with_capacity(places.count());
+        for k in 0..places.count() {
+            let (part, others) = rest.split_at_mut(starts[k + 1] - starts[k]);
+            parts.push(part);
+            rest = others;
+        }
+        parts.into_par_iter().enumerate().with_min_len(AT_ONCE).for_each(|(place, near)| {
+            to_weights(places, &seeds, place, near, spacing);
+        });
+        Self { seeds, spacing: Some(spacing), starts, weights: near }
     }
 
     /// The values at all places from those computed.
@@ -62,9 +88,10 @@ impl Sampling {
         if self.spacing.is_none() {
             return computed.to_vec();
         }
-        self.weights
-            .iter()
-            .map(|weights| {
+        self.starts
+            .windows(2)
+            .map(|ends| {
+                let weights = &self.weights[ends[0]..ends[1]];
                 let (first, rest) = (weights[0], &weights[1..]);
                 rest.iter().fold(computed[first.0 as usize] * first.1, |sum, &(number, w)| {
                     sum + computed[number as usize] * w
@@ -90,15 +117,15 @@ fn seeds(places: &Places, spacing: f64) -> Vec<usize> {
     seeds
 }
 
-/// The weights of the computed places at a place: those of the plane fitted to them, or of their
-/// mean where they lie on a line.
-fn weights(
+/// Turns the distances of the computed places from a place into their weights there: those of the
+/// plane fitted to them, or of their mean where they lie on a line.
+fn to_weights(
     places: &Places,
     seeds: &[usize],
     place: usize,
-    near: &[(u32, f64)],
+    near: &mut [(u32, f64)],
     spacing: f64,
-) -> Vec<(u32, f64)> {
+) {
     let kernel = |distance: f64| {
         let share = distance / (REACH * spacing);
         // A little at the very rim too: there must be some weight everywhere.
@@ -106,9 +133,9 @@ fn weights(
     };
     let at = |number: u32| (places.point(seeds[number as usize]) - places.point(place)) / spacing;
     let total: f64 = near.iter().map(|&(_, d)| kernel(d)).sum();
-    let mean = near.iter().map(|&(_, d)| kernel(d) / total);
+    near.iter_mut().for_each(|(_, d)| *d = kernel(*d) / total);
     // Coordinates across the direction in which the computed places spread least: the normal.
-    let centre: DVec3 = near.iter().zip(mean.clone()).map(|(&(n, _), w)| w * at(n)).sum();
+    let centre: DVec3 = near.iter().map(|&(n, w)| w * at(n)).sum();
     let normal = near
         .windows(2)
         .map(|pair| (at(pair[0].0) - centre).cross(at(pair[1].0) - centre))
@@ -122,16 +149,15 @@ fn weights(
     };
     let moments: DMat3 = near
         .iter()
-        .zip(mean.clone())
-        .map(|(&(number, _), w)| {
+        .map(|&(number, w)| {
             let r = row(number);
             w * DMat3::from_cols(r * r.x, r * r.y, r * r.z)
         })
         .sum();
     // Spread over about a spacing both ways it is near one; on a line zero.
     if moments.determinant() < 0.01 {
-        return near.iter().zip(mean).map(|(&(number, _), w)| (number, w)).collect();
+        return;
     }
     let value = moments.inverse() * DVec3::X;
-    near.iter().zip(mean).map(|(&(number, _), w)| (number, w * row(number).dot(value))).collect()
+    near.iter_mut().for_each(|(number, w)| *w *= row(*number).dot(value));
 }

@@ -1,7 +1,7 @@
 //! Points on a surface, and the point of a surface nearest to a place in space.
 
 use glam::{DVec2, DVec3};
-use rstar::{AABB, PointDistance, RTree, RTreeObject};
+use rayon::prelude::*;
 
 use crate::surface::{Surface, TriangleId};
 
@@ -73,54 +73,170 @@ pub fn closest_on_triangle(p: DVec3, [a, b, c]: [DVec3; 3]) -> DVec3 {
     DVec3::new(1.0 - v - w, v, w)
 }
 
-struct Leaf {
-    triangle: TriangleId,
-    corners: [DVec3; 3],
-}
+/// Triangles in a leaf of the tree.
+const IN_LEAF: usize = 4;
 
-impl RTreeObject for Leaf {
-    type Envelope = AABB<[f64; 3]>;
+/// Nodes that wait at most: one a level, and triangles are numbered by 32 bits.
+const DEEPEST: usize = 40;
 
-    fn envelope(&self) -> Self::Envelope {
-        let [a, b, c] = self.corners;
-        AABB::from_corners(a.min(b).min(c).to_array(), a.max(b).max(c).to_array())
-    }
-}
+/// Bits of a place along one axis on the curve on which triangles are ordered.
+const BITS: u32 = 21;
 
-impl PointDistance for Leaf {
-    fn distance_2(&self, point: &[f64; 3]) -> f64 {
-        let p = DVec3::from_array(*point);
-        let w = closest_on_triangle(p, self.corners);
-        let [a, b, c] = self.corners;
-        p.distance_squared(w.x * a + w.y * b + w.z * c)
-    }
-}
+/// A box along the axes: its lower and upper corner.
+type Box3 = [DVec3; 2];
 
 /// Finds the point of a surface nearest to a place in space.
+///
+/// A tree of boxes over the triangles in the order of their middles on a space-filling curve
+/// (Morton 1966; Lauterbach et al., *Fast BVH Construction on GPUs*, 2009). Of triangles equally
+/// near the first is found.
 pub struct Locator {
-    tree: RTree<Leaf>,
+    /// Triangles in the order of the leaves, and their corners.
+    order: Vec<u32>,
+    corners: Vec<[DVec3; 3]>,
+    /// A complete binary tree: node k has the children 2 k and 2 k + 1, node 1 is the root, the
+    /// second half are leaves.
+    boxes: Vec<Box3>,
 }
 
 impl Locator {
     /// Prepares the search on a surface.
     #[must_use]
     pub fn new(surface: &Surface) -> Self {
-        let leaves = surface
-            .triangle_ids()
-            .map(|triangle| Leaf { triangle, corners: surface.corners(triangle) })
+        let (low, high) = surface
+            .points()
+            .iter()
+            .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(l, h), &p| (l.min(p), h.max(p)));
+        let cells = f64::from(1u32 << BITS) - 1.0;
+        let scale = cells / (high - low).max_element().max(f64::MIN_POSITIVE);
+        let mut keyed: Vec<(u64, u32)> = surface
+            .triangles()
+            .par_iter()
+            .enumerate()
+            .map(|(t, corners)| {
+                let sum: DVec3 = corners.iter().map(|&v| surface.point(v) - low).sum();
+                // Triangles, as their half-edges, are numbered by 32 bits.
+                (on_curve(sum / 3.0 * scale), t as u32)
+            })
             .collect();
-        Self { tree: RTree::bulk_load(leaves) }
+        keyed.par_sort_unstable();
+        let order: Vec<u32> = keyed.into_iter().map(|(_, t)| t).collect();
+        let corners: Vec<[DVec3; 3]> =
+            order.iter().map(|&t| surface.corners(TriangleId::new(t as usize))).collect();
+        let leaves = order.len().div_ceil(IN_LEAF).next_power_of_two();
+        let nothing = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let mut boxes = vec![nothing; 2 * leaves];
+        for (leaf, triangles) in corners.chunks(IN_LEAF).enumerate() {
+            boxes[leaves + leaf] = triangles
+                .iter()
+                .flatten()
+                .fold(nothing, |[low, high], &p| [low.min(p), high.max(p)]);
+        }
+        for k in (1..leaves).rev() {
+            let ([a, b], [c, d]) = (boxes[2 * k], boxes[2 * k + 1]);
+            boxes[k] = [a.min(c), b.max(d)];
+        }
+        Self { order, corners, boxes }
     }
 
     /// The nearest point of the surface and its distance in mm; `None` only for a surface
     /// without triangles.
     #[must_use]
     pub fn closest(&self, place: DVec3) -> Option<(SurfacePoint, f64)> {
-        let leaf = self.tree.nearest_neighbor(place.to_array())?;
-        let barycentric = closest_on_triangle(place, leaf.corners);
-        let [a, b, c] = leaf.corners;
-        let nearest = barycentric.x * a + barycentric.y * b + barycentric.z * c;
-        let point = SurfacePoint { triangle: leaf.triangle, barycentric };
-        Some((point, place.distance(nearest)))
+        let leaves = self.boxes.len() / 2;
+        // Square of the distance, triangle and place in it.
+        let mut best = (f64::INFINITY, u32::MAX, DVec3::X);
+        // The nearer child is looked at first; one of the farther waits a level.
+        let mut waiting = [(0.0, 1); DEEPEST];
+        let mut count = 1;
+        while count > 0 {
+            count -= 1;
+            let (gap, node) = waiting[count];
+            if gap > best.0 {
+                continue;
+            }
+            if node < leaves {
+                let children = [2 * node, 2 * node + 1];
+                let [a, b] = children.map(|k| (squared_gap(&self.boxes[k], place), k));
+                waiting[count..count + 2].copy_from_slice(&if a.0 <= b.0 {
+                    [b, a]
+                } else {
+                    [a, b]
+                });
+                count += 2;
+                continue;
+            }
+            let first = (node - leaves) * IN_LEAF;
+            let last = (first + IN_LEAF).min(self.order.len());
+            for k in first.min(last)..last {
+                let [a, b, c] = self.corners[k];
+                let w = closest_on_triangle(place, [a, b, c]);
+                let squared = place.distance_squared(w.x * a + w.y * b + w.z * c);
+                if squared < best.0 || (squared == best.0 && self.order[k] < best.1) {
+                    best = (squared, self.order[k], w);
+                }
+            }
+        }
+        let (squared, triangle, barycentric) = best;
+        let triangle = (triangle != u32::MAX).then(|| TriangleId::new(triangle as usize))?;
+        Some((SurfacePoint { triangle, barycentric }, squared.sqrt()))
+    }
+}
+
+/// Square of the distance from a place to a box; infinite for an empty box.
+fn squared_gap([low, high]: &Box3, place: DVec3) -> f64 {
+    (*low - place).max(place - *high).max(DVec3::ZERO).length_squared()
+}
+
+/// Where cell `place` lies on the curve: its coordinates' bits in turn.
+fn on_curve(place: DVec3) -> u64 {
+    let spread = |x: f64| {
+        let mut bits = x as u64 & ((1 << BITS) - 1);
+        for (shift, mask) in [
+            (32, 0x001f_0000_0000_ffff),
+            (16, 0x001f_0000_ff00_00ff),
+            (8, 0x100f_00f0_0f00_f00f),
+            (4, 0x10c3_0c30_c30c_30c3),
+            (2, 0x1249_2492_4924_9249),
+        ] {
+            bits = (bits | bits << shift) & mask;
+        }
+        bits
+    };
+    spread(place.x) | spread(place.y) << 1 | spread(place.z) << 2
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::shapes::torus_quarter;
+    use super::*;
+
+    #[test]
+    fn the_nearest_point_is_that_of_all_triangles_and_the_first_of_equals() {
+        let s = torus_quarter(80.0, 40.0, 9.0);
+        let locator = Locator::new(&s);
+        let all = |place: DVec3| {
+            let gap = |t: TriangleId| {
+                let [a, b, c] = s.corners(t);
+                let w = closest_on_triangle(place, [a, b, c]);
+                place.distance_squared(w.x * a + w.y * b + w.z * c)
+            };
+            s.triangle_ids().min_by(|&a, &b| gap(a).total_cmp(&gap(b))).map(|t| (t, gap(t)))
+        };
+        let beside = s.points().iter().map(|&p| 1.1 * p + DVec3::new(3.0, -7.0, 2.0));
+        for place in s.points().iter().copied().chain(beside) {
+            let (found, distance) = locator.closest(place).unwrap();
+            let (triangle, squared) = all(place).unwrap();
+            assert_eq!((found.triangle, distance), (triangle, squared.sqrt()), "{place}");
+        }
+    }
+
+    #[test]
+    fn neighbours_on_the_curve_are_cells_with_neighbouring_bits() {
+        let at = |x: f64, y: f64, z: f64| on_curve(DVec3::new(x, y, z));
+        assert_eq!([at(1.0, 0.0, 0.0), at(0.0, 1.0, 0.0), at(0.0, 0.0, 1.0)], [1, 2, 4]);
+        assert_eq!(at(2.0, 3.0, 0.0), 0b01_1010);
+        let last = f64::from((1u32 << BITS) - 1);
+        assert_eq!(at(last, last, last), (1 << (3 * BITS)) - 1);
     }
 }

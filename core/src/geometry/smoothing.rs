@@ -11,10 +11,8 @@
 
 use std::f64::consts::PI;
 
-use rayon::prelude::*;
-
-use super::curvature::ScaleCurvature;
-use crate::surface::{Surface, VertexId};
+use super::curvature::{ScaleCurvature, ScaleFit};
+use crate::surface::Surface;
 
 /// Noise is read from patches of these many mean edges in radius, some 17 and 40 vertices.
 const NOISE_EDGES: [f64; 2] = [2.2, 3.3];
@@ -46,12 +44,13 @@ pub fn noise(surface: &Surface) -> f64 {
     let patches = NOISE_EDGES.map(|edges| ScaleCurvature::new(surface, edges * edge));
     let shape = (NOISE_EDGES[0] / NOISE_EDGES[1]).powi(SHAPE_POWER);
     let step = surface.vertex_count().div_ceil(NOISE_SAMPLES).max(1);
-    let mut variances: Vec<f64> = (0..surface.vertex_count())
-        .into_par_iter()
-        .step_by(step)
-        .filter_map(|i| {
-            let [near, far] = [0, 1].map(|k| unexplained(&patches[k], VertexId::new(i)));
-            Some(((near? - shape * far?) / (1.0 - shape)).max(0.0))
+    let [near, far] = patches.map(|patches| patches.fit_vertices(step));
+    let mut variances: Vec<f64> = near
+        .iter()
+        .zip(&far)
+        .filter_map(|(near, far)| {
+            let [near, far] = [unexplained(near)?, unexplained(far)?];
+            Some(((near - shape * far) / (1.0 - shape)).max(0.0))
         })
         .collect();
     variances.sort_by(f64::total_cmp);
@@ -59,8 +58,7 @@ pub fn noise(surface: &Surface) -> f64 {
 }
 
 /// Variance that a patch leaves unexplained, in mm².
-fn unexplained(patches: &ScaleCurvature<'_>, v: VertexId) -> Option<f64> {
-    let fit = patches.fit_vertex(v);
+fn unexplained(fit: &ScaleFit) -> Option<f64> {
     // The fit has taken up part of the noise.
     let free = fit.points.checked_sub(COEFFICIENTS).filter(|&free| free > 0)?;
     Some(fit.residual_mm.powi(2) * fit.points as f64 / free as f64)
@@ -69,15 +67,9 @@ fn unexplained(patches: &ScaleCurvature<'_>, v: VertexId) -> Option<f64> {
 /// The surface with every vertex on the patch fitted within `radius` mm of it.
 #[must_use]
 pub fn smooth(surface: &Surface, radius: f64) -> Surface {
-    let patches = ScaleCurvature::new(surface, radius);
-    let points = (0..surface.vertex_count())
-        .into_par_iter()
-        .map(|i| {
-            let v = VertexId::new(i);
-            let fit = patches.fit_vertex(v);
-            surface.point(v) + fit.offset_mm * fit.shape.normal
-        })
-        .collect();
+    let fits = ScaleCurvature::new(surface, radius).fit_vertices(1);
+    let moved = surface.points().iter().zip(&fits);
+    let points = moved.map(|(&p, fit)| p + fit.offset_mm * fit.shape.normal).collect();
     surface.with_points(points)
 }
 
@@ -97,6 +89,7 @@ pub fn curvature_noise(surface: &Surface, noise: f64, radius: f64) -> f64 {
 mod tests {
     use super::*;
     use crate::geometry::shapes::{cylinder, noisy, torus_quarter};
+    use crate::surface::VertexId;
 
     const RADIUS: f64 = 45.0;
 

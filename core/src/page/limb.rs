@@ -15,7 +15,7 @@ use super::draw::{
     Anchor, INK, Labels, circle, drawing, image, line, path, path_data, rimmed, text,
 };
 use super::html::{Tag, shown, tag};
-use super::picture::{Light, data_address};
+use super::picture::{Shades, data_address};
 use super::quantity::Quantity;
 use super::raster::{Camera, Raster};
 use crate::geometry::Locator;
@@ -43,6 +43,7 @@ struct View {
     name: &'static str,
     camera: Camera,
     raster: Raster,
+    shades: Shades,
     corner: DVec2,
     size: DVec2,
 }
@@ -61,7 +62,6 @@ impl View {
 /// The four views of a limb, ready to be coloured.
 pub(super) struct Limb<'a> {
     input: &'a PageInput<'a>,
-    normals: Vec<DVec3>,
     views: Vec<View>,
     /// Asked points on the surface.
     points: Vec<DVec3>,
@@ -116,10 +116,13 @@ impl<'a> Limb<'a> {
                     size: [pixels(span(across)), pixels(high)],
                 };
                 let size = DVec2::new(camera.size[0] as f64, camera.size[1] as f64) / DENSITY;
+                let raster = Raster::new(disk, disk.points(), &camera);
+                let light = (viewer + 0.25 * up - 0.25 * across).normalize_or_zero();
                 View {
                     name,
                     camera,
-                    raster: Raster::new(disk, disk.points(), &camera),
+                    shades: Shades::new(disk, &raster, &normals, light),
+                    raster,
                     corner: DVec2::new(0.5 * (WIDTH - size.x), MARGIN),
                     size,
                 }
@@ -131,7 +134,7 @@ impl<'a> Limb<'a> {
         };
         let points = input.report.pressures.iter().filter_map(|p| on_surface(p.at)).collect();
         let height = high * scale + 2.0 * MARGIN + FOOTER;
-        Self { input, normals, views, points, seams: seams(input), scale, height }
+        Self { input, views, points, seams: seams(input), scale, height }
     }
 
     /// The four views coloured by a quantity.
@@ -146,13 +149,8 @@ impl<'a> Limb<'a> {
     }
 
     fn picture(&self, view: &View, quantity: &Quantity) -> String {
-        let camera = &view.camera;
-        let light = Light {
-            normals: &self.normals,
-            from: (camera.viewer + 0.25 * camera.up - 0.25 * camera.right).normalize_or_zero(),
-        };
-        let pixel = 1.0 / camera.scale;
-        data_address(self.input.disk, &view.raster, &quantity.field(), Some(light), pixel)
+        let (shades, pixel) = (Some(&view.shades), 1.0 / view.camera.scale);
+        data_address(self.input.disk, &view.raster, &quantity.field(), shades, pixel)
     }
 
     fn drawing(

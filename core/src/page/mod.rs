@@ -18,6 +18,7 @@ mod scale;
 mod tables;
 
 use glam::DVec2;
+use rayon::prelude::*;
 
 use self::girth::GirthPair;
 use self::html::{Tag, shown, tag};
@@ -78,15 +79,19 @@ pub fn report_html(input: &PageInput<'_>) -> String {
     if let Some(kpa) = input.pressure_kpa {
         quantities.push(Quantity::pressure(kpa, &areas, input.limit_kpa));
     }
-    let pairs = girth::girths(input);
+    // The pictures are what takes long.
+    let (pairs, (on_limb, flat)) = rayon::join(
+        || girth::girths(input),
+        || rayon::join(|| limb(input, &quantities), || pattern(input, &quantities)),
+    );
     let body = tag("body")
         .child(heading(input))
         .children(warnings(&input.report.warnings))
         .child(verdict(input))
         .child(facts(input, &quantities, &pairs))
         .child(pressures(input))
-        .child(limb(input, &quantities))
-        .child(pattern(input, &quantities))
+        .child(on_limb)
+        .child(flat)
         .child(curves(input))
         .child(girths(input, &pairs))
         .child(fabric(input))
@@ -269,9 +274,10 @@ fn limb(input: &PageInput<'_>, quantities: &[Quantity]) -> Tag {
 
 fn pattern(input: &PageInput<'_>, quantities: &[Quantity]) -> Tag {
     let plan = Plan::new(input);
-    let figures = quantities.iter().map(|quantity| {
+    let drawings: Vec<_> = quantities.par_iter().map(|q| plan.drawing(q)).collect();
+    let figures = quantities.iter().zip(drawings).map(|(quantity, drawing)| {
         let words = format!("{}, {}", quantity.name, quantity.unit);
-        tag("figure").child(plan.drawing(quantity)).child(tag("figcaption").text(words))
+        tag("figure").child(drawing).child(tag("figcaption").text(words))
     });
     let class = if quantities.len() > 1 { "pair" } else { "single" };
     tag("section")

@@ -38,25 +38,28 @@ pub(super) struct Field<'a> {
     pub(super) limit: Option<f64>,
 }
 
-/// Light on a body: its vertex normals and the direction that the light comes from.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Light<'a> {
-    /// Unit normals by vertex.
-    pub(super) normals: &'a [DVec3],
-    /// Unit direction towards the light.
-    pub(super) from: DVec3,
+/// How bright each pixel of a raster is, in steps below [`SHADES`].
+pub(super) struct Shades(Vec<u8>);
+
+impl Shades {
+    /// A body with these unit normals by vertex, lit from a unit direction.
+    pub(super) fn new(surface: &Surface, raster: &Raster, normals: &[DVec3], from: DVec3) -> Self {
+        let shade =
+            |at: usize| raster.seen(at).map_or(0, |seen| lit(surface, &seen, normals, from));
+        Self((0..raster.width * raster.height).map(shade).collect())
+    }
 }
 
 /// A field on what a raster shows, as the address of an image that is in the address itself.
-/// `pixel` is the size of a pixel in mm. Without `light` it is a flat picture without edges.
+/// `pixel` is the size of a pixel in mm. Without `shades` it is a flat picture without edges.
 pub(super) fn data_address(
     surface: &Surface,
     raster: &Raster,
     field: &Field<'_>,
-    light: Option<Light<'_>>,
+    shades: Option<&Shades>,
     pixel: f64,
 ) -> String {
-    let indices = paint(surface, raster, field, light, pixel);
+    let indices = paint(surface, raster, field, shades, pixel);
     let bytes = png(raster.width, raster.height, &indices, &palette(&field.bands));
     format!("data:image/png;base64,{}", STANDARD.encode(bytes))
 }
@@ -113,17 +116,21 @@ fn palette(bands: &Bands) -> Vec<Rgb> {
     colours
 }
 
+/// The class of a pixel in which there is nothing.
+const NO_CLASS: u8 = u8::MAX;
+
 fn paint(
     surface: &Surface,
     raster: &Raster,
     field: &Field<'_>,
-    light: Option<Light<'_>>,
+    shades: Option<&Shades>,
     pixel: f64,
 ) -> Vec<u8> {
     let palette = Palette { bands: field.bands.count };
-    let count = raster.width * raster.height;
+    let (width, height) = (raster.width, raster.height);
+    let count = width * height;
     // Class of each pixel, to find the lines between them.
-    let mut classes = vec![None; count];
+    let mut classes = vec![NO_CLASS; count];
     let mut indices = vec![palette.nothing(); count];
     for at in 0..count {
         let Some(seen) = raster.seen(at) else { continue };
@@ -137,42 +144,47 @@ fn paint(
                 Class::Unknown => palette.unknown(),
             }
         };
-        classes[at] = Some((class, seen.depth));
-        let shade = light.map_or(SHADES - 1, |light| shade(surface, &seen, light));
-        let (x, y) = (at % raster.width, at / raster.width);
+        // Classes times shades are less than 256.
+        classes[at] = class as u8;
+        let shade = shades.map_or(SHADES - 1, |shades| usize::from(shades.0[at]));
         let over = seen.outside && field.limit.is_some_and(|limit| value > limit);
-        indices[at] = if over && (x + y) % 12 < 4 {
+        indices[at] = if over && (at % width + at / width) % 12 < 4 {
             palette.light()
-        } else if class == palette.negative() && (x + raster.height - y) % 12 < 2 {
+        } else if class == palette.negative() && (at % width + height - at / width) % 12 < 2 {
             palette.dark()
         } else {
             palette.index(class, shade)
         };
     }
+    let lines: Vec<u8> = (0..palette.bands + 3)
+        .flat_map(|a| (0..palette.bands + 3).map(move |b| (a, b)))
+        .map(|(a, b)| line_between(&field.bands, palette, a, b))
+        .collect();
     // A line is two pixels wide: the last of one band and the first of the next.
     for at in 0..count {
-        let (x, y) = (at % raster.width, at / raster.width);
-        let right = (x + 1 < raster.width).then_some(at + 1);
-        let below = (y + 1 < raster.height).then_some(at + raster.width);
+        let right = (at % width + 1 < width).then_some(at + 1);
+        let below = (at + width < count).then_some(at + width);
         for next in [right, below].into_iter().flatten() {
-            let line = match (classes[at], classes[next]) {
-                (Some((a, before)), Some((b, after))) => {
+            let (a, b) = (classes[at], classes[next]);
+            let line = match (a == NO_CLASS, b == NO_CLASS) {
+                (false, false) => {
                     // A farther part of the body behind a nearer one has an edge of its own.
-                    let apart = light.is_some() && f64::abs(before - after) > 6.0 * pixel;
-                    if apart {
-                        Some(palette.dark())
+                    let apart = || f64::abs(raster.depth(at) - raster.depth(next)) > 6.0 * pixel;
+                    if shades.is_some() && apart() {
+                        palette.dark()
+                    } else if a != b {
+                        lines[usize::from(a) * (palette.bands + 3) + usize::from(b)]
                     } else {
-                        (a != b).then(|| line_between(&field.bands, palette, a, b))
+                        continue;
                     }
                 }
-                (None, None) => None,
-                _ => light.map(|_| palette.dark()),
+                (true, true) => continue,
+                _ if shades.is_some() => palette.dark(),
+                _ => continue,
             };
-            if let Some(line) = line {
-                for pixel in [at, next] {
-                    if classes[pixel].is_some() {
-                        indices[pixel] = line;
-                    }
+            for pixel in [at, next] {
+                if classes[pixel] != NO_CLASS {
+                    indices[pixel] = line;
                 }
             }
         }
@@ -193,12 +205,13 @@ fn mean(surface: &Surface, seen: &Seen, values: &[f64]) -> f64 {
     (0..3).map(|k| seen.weights[k] * values[corners[k].index()]).sum()
 }
 
-fn shade(surface: &Surface, seen: &Seen, light: Light<'_>) -> usize {
+/// The brightness of what is seen in a pixel.
+fn lit(surface: &Surface, seen: &Seen, normals: &[DVec3], from: DVec3) -> u8 {
     let corners = surface.triangle(seen.triangle);
-    let normal: DVec3 = (0..3).map(|k| seen.weights[k] * light.normals[corners[k].index()]).sum();
+    let normal: DVec3 = (0..3).map(|k| seen.weights[k] * normals[corners[k].index()]).sum();
     let normal = if seen.outside { normal } else { -normal };
-    let lit = normal.normalize_or_zero().dot(light.from).clamp(0.0, 1.0);
-    (lit * (SHADES - 1) as f64).round() as usize
+    let lit = normal.normalize_or_zero().dot(from).clamp(0.0, 1.0);
+    (lit * (SHADES - 1) as f64).round() as u8
 }
 
 /// An indexed PNG whose last colour is transparent.
@@ -211,7 +224,7 @@ fn png(width: usize, height: usize, indices: &[u8], palette: &[Rgb]) -> Vec<u8> 
     let mut opacity = vec![255; palette.len() - 1];
     opacity.push(0);
     encoder.set_trns(opacity);
-    encoder.set_compression(png::Compression::High);
+    encoder.set_compression(png::Compression::Balanced);
     // Indices are no amounts: neighbours that differ by one are as different as any.
     encoder.set_filter(png::Filter::NoFilter);
     encoder

@@ -102,17 +102,16 @@ impl Raster {
             let last = (high + 0.5).floor().clamp(0.0, size as f64) as usize;
             first..last
         };
+        let (sides, sign) = ([c - b, a - c, b - a], area.signum());
         for y in range(low.y, high.y, self.height) {
             for x in range(low.x, high.x, self.width) {
                 let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
-                let weights = [
-                    (c - b).perp_dot(p - b) / area,
-                    (a - c).perp_dot(p - c) / area,
-                    (b - a).perp_dot(p - a) / area,
-                ];
-                if weights.iter().any(|&w| w < 0.0) {
+                let parts =
+                    [sides[0].perp_dot(p - b), sides[1].perp_dot(p - c), sides[2].perp_dot(p - a)];
+                if parts.iter().any(|&part| sign * part < 0.0) {
                     continue;
                 }
+                let weights = parts.map(|part| part / area);
                 let depth = (0..3).map(|k| weights[k] * depths[k]).sum::<f64>() as f32;
                 let pixel = y * self.width + x;
                 if depth > self.depth[pixel] {
@@ -124,6 +123,11 @@ impl Raster {
                 }
             }
         }
+    }
+
+    /// How far what is seen in a pixel is towards the viewer, in mm.
+    pub(super) fn depth(&self, pixel: usize) -> f64 {
+        f64::from(self.depth[pixel])
     }
 
     /// What is seen in a pixel.

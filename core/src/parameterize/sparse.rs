@@ -10,8 +10,9 @@ use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
-use faer::sparse::{Argsort, Pair, SparseColMat, SymbolicSparseColMat};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, Mat, Par, Side, Spec};
+use rayon::prelude::*;
 
 /// Why a system cannot be solved.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -34,12 +35,18 @@ pub enum SparseError {
     },
 }
 
+/// Most entries and unknowns: what a signed number of 32 bits counts.
+const MOST_ENTRIES: usize = i32::MAX as usize;
+
 /// The analysed pattern of a symmetric matrix, given by its lower triangle.
 pub struct Pattern {
     size: usize,
-    lower: SymbolicSparseColMat<usize>,
-    order: Argsort<usize>,
-    symbolic: SymbolicCholesky<usize>,
+    /// Unknowns and entries are numbered by 32 bits: half the memory to go through.
+    lower: SymbolicSparseColMat<u32>,
+    /// The entries given, in the order of the matrix's own, and where each of those begins in it.
+    order: Vec<u32>,
+    starts: Vec<u32>,
+    symbolic: SymbolicCholesky<u32>,
 }
 
 impl std::fmt::Debug for Pattern {
@@ -58,10 +65,10 @@ impl Pattern {
         if let Some(&(row, column)) = entries.iter().find(|(r, c)| r < c || *r >= size) {
             return Err(SparseError::Entry { row, column, size });
         }
-        let pairs: Vec<Pair<usize, usize>> =
-            entries.iter().map(|&(row, col)| Pair { row, col }).collect();
-        let (lower, order) = SymbolicSparseColMat::try_new_from_indices(size, size, &pairs)
-            .map_err(|_| SparseError::TooLarge(size))?;
+        if entries.len() > MOST_ENTRIES || size > MOST_ENTRIES {
+            return Err(SparseError::TooLarge(size));
+        }
+        let (lower, order, starts) = assembled(size, entries);
         let symbolic = factorize_symbolic_cholesky(
             lower.as_ref(),
             Side::Lower,
@@ -69,7 +76,7 @@ impl Pattern {
             CholeskySymbolicParams::default(),
         )
         .map_err(|_| SparseError::TooLarge(size))?;
-        Ok(Self { size, lower, order, symbolic })
+        Ok(Self { size, lower, order, starts, symbolic })
     }
 
     /// Factorizes the matrix with these values, one for each entry given to [`Pattern::new`] and
@@ -83,15 +90,24 @@ impl Pattern {
     /// If the number of values differs from the number of entries.
     pub fn factorize(&self, values: &[f64]) -> Result<Factor<'_>, SparseError> {
         let too_large = || SparseError::TooLarge(self.size);
-        let matrix = SparseColMat::new_from_argsort(self.lower.clone(), &self.order, values)
-            .map_err(|_| too_large())?;
+        assert_eq!(values.len(), self.order.len());
+        let sums: Vec<f64> = self
+            .starts
+            .windows(2)
+            .map(|ends| {
+                let parts = &self.order[ends[0] as usize..ends[1] as usize];
+                let first = values[parts[0] as usize];
+                parts[1..].iter().fold(first, |sum, &k| sum + values[k as usize])
+            })
+            .collect();
+        let matrix = SparseColMatRef::new(self.lower.as_ref(), &sums);
         let mut factor = vec![0.0; self.symbolic.len_val()];
         let scratch = self.symbolic.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
         let mut memory = MemBuffer::try_new(scratch).map_err(|_| too_large())?;
         self.symbolic
             .factorize_numeric_llt(
                 &mut factor,
-                matrix.as_ref(),
+                matrix,
                 Side::Lower,
                 LltRegularization::default(),
                 Par::Seq,
@@ -103,6 +119,55 @@ impl Pattern {
             })?;
         Ok(Factor { pattern: self, factor })
     }
+}
+
+/// The pattern of a matrix with these entries, the entries in its order, and where each place of
+/// the pattern begins in that order.
+fn assembled(
+    size: usize,
+    entries: &[(usize, usize)],
+) -> (SymbolicSparseColMat<u32>, Vec<u32>, Vec<u32>) {
+    let mut ends = vec![0usize; size + 1];
+    for &(_, column) in entries {
+        ends[column + 1] += 1;
+    }
+    for k in 0..size {
+        ends[k + 1] += ends[k];
+    }
+    // Row and number of every entry, column by column.
+    let mut sorted = vec![(0u32, 0u32); entries.len()];
+    let mut filled = ends.clone();
+    for (k, &(row, column)) in entries.iter().enumerate() {
+        sorted[filled[column]] = (row as u32, k as u32);
+        filled[column] += 1;
+    }
+    let mut columns = Vec::with_capacity(size);
+    let mut rest = sorted.as_mut_slice();
+    for k in 0..size {
+        let (column, others) = rest.split_at_mut(ends[k + 1] - ends[k]);
+        columns.push(column);
+        rest = others;
+    }
+    columns.par_iter_mut().with_min_len(1024).for_each(|column| {
+        column.sort_unstable_by_key(|&(row, _)| row);
+    });
+    let (mut column_starts, mut rows) = (Vec::with_capacity(size + 1), Vec::new());
+    let (mut order, mut starts) = (Vec::with_capacity(entries.len()), Vec::new());
+    for column in columns {
+        column_starts.push(rows.len() as u32);
+        let mut last = None;
+        for &mut (row, k) in column {
+            if last != Some(row) {
+                last = Some(row);
+                rows.push(row);
+                starts.push(order.len() as u32);
+            }
+            order.push(k);
+        }
+    }
+    column_starts.push(rows.len() as u32);
+    starts.push(order.len() as u32);
+    (SymbolicSparseColMat::new_checked(size, size, column_starts, None, rows), order, starts)
 }
 
 /// A factorized matrix.

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 use glam::DVec2;
 
 use super::error::SeamError;
-use super::strip::{pull, reduce};
+use super::strip::{Shapes, parts, pull, reduce};
 use super::triangulation::Triangulation;
 use crate::surface::{HalfEdgeId, TriangleId, VertexId};
 
@@ -58,7 +58,8 @@ pub(super) struct Bend {
 #[derive(Debug, Clone)]
 pub(super) struct Taut {
     pub(super) length: f64,
-    /// Where each crossed half-edge is crossed, as the part of the way from its start.
+    /// Where each crossed half-edge is crossed, as the part of the way from its start; known of a
+    /// finished path alone.
     pub(super) parts: Vec<f64>,
     pub(super) bends: Vec<Bend>,
     /// The last straight piece, unfolded, and the unit direction of the boundary half-edge at the
@@ -74,11 +75,12 @@ pub(super) struct Space<'a> {
     pub(super) forbidden: Vec<bool>,
     /// Mean length of the edges, in mm.
     pub(super) edge: f64,
+    shapes: Shapes<'a>,
 }
 
 impl<'a> Space<'a> {
     pub(super) fn new(mesh: &'a Triangulation, forbidden: Vec<bool>, edge: f64) -> Self {
-        Self { mesh, forbidden, edge }
+        Self { mesh, forbidden, edge, shapes: Shapes::new(mesh) }
     }
 
     fn allowed(&self, t: TriangleId) -> bool {
@@ -101,8 +103,7 @@ impl<'a> Space<'a> {
         taut = self.tighten(&mut path)?;
         self.trim(&mut path, &mut taut, shores[0])?;
         self.reverse(&mut path)?;
-        taut = self.tighten(&mut path)?;
-        Ok(Some((path, taut)))
+        self.finish(path)
     }
 
     /// The straight path between two boundary loops that starts from the shortest edge path, its
@@ -126,8 +127,7 @@ impl<'a> Space<'a> {
                 break;
             }
         }
-        taut = self.tighten(&mut path)?;
-        Ok(Some((path, taut)))
+        self.finish(path)
     }
 
     /// Dijkstra's shortest path over edges. Lengths are whole numbers, so that equal paths stay
@@ -244,15 +244,22 @@ impl<'a> Space<'a> {
         }
     }
 
+    /// The path at its end, with all that is to be known of it.
+    fn finish(&self, mut path: Path) -> Result<Option<(Path, Taut)>, SeamError> {
+        let mut taut = self.tighten(&mut path)?;
+        taut.parts = parts(&self.shapes, &path)?;
+        Ok(Some((path, taut)))
+    }
+
     /// Pulls the path taut and leads it round vertices until it is straight.
     fn tighten(&self, path: &mut Path) -> Result<Taut, SeamError> {
         reduce(self.mesh, path);
-        let mut taut = pull(self.mesh, path)?;
+        let mut taut = pull(&self.shapes, path)?;
         // Leading round a vertex always shortens; rounding alone could go on without end.
         let mut idle = 0;
         while idle < 8 && self.lead_round(path, &taut.bends) {
             reduce(self.mesh, path);
-            let next = pull(self.mesh, path)?;
+            let next = pull(&self.shapes, path)?;
             idle = if next.length < taut.length * (1.0 - 1e-14) { 0 } else { idle + 1 };
             taut = next;
         }

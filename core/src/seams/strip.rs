@@ -4,6 +4,8 @@
 //! between them is found by the funnel (Lee & Preparata, *Euclidean shortest paths in the presence
 //! of rectilinear barriers*, 1984).
 
+use std::cell::RefCell;
+
 use glam::DVec2;
 
 use super::error::SeamError;
@@ -33,6 +35,48 @@ pub(super) fn reduce(mesh: &Triangulation, path: &mut Path) {
     path.crossings = kept;
 }
 
+/// The shapes of triangles that strips run through, each computed once: a path is pulled taut again
+/// and again, with another end.
+pub(super) struct Shapes<'a> {
+    mesh: &'a Triangulation,
+    /// Of each half-edge's triangle: where its apex is along the half-edge and beside it, in mm.
+    /// Nothing lies beside before it was computed.
+    apexes: RefCell<Vec<[f64; 2]>>,
+}
+
+impl<'a> Shapes<'a> {
+    pub(super) fn new(mesh: &'a Triangulation) -> Self {
+        Self { mesh, apexes: RefCell::new(vec![[0.0; 2]; mesh.half_edge_count()]) }
+    }
+
+    /// Where the apex of `h`'s triangle comes when `h` lies from `a` to `b`: on its left.
+    fn apex(&self, h: HalfEdgeId, a: DVec2, b: DVec2) -> DVec2 {
+        let mut apexes = self.apexes.borrow_mut();
+        let known = &mut apexes[h.index()];
+        if known[1] == 0.0 {
+            *known = beside(self.mesh, h);
+        }
+        let [x, y] = *known;
+        let along = (b - a).normalize_or_zero();
+        a + x * along + y * along.perp()
+    }
+
+    /// Lays a triangle flat, counter-clockwise as seen from outside.
+    fn lay(&self, t: TriangleId) -> [DVec2; 3] {
+        let h = HalfEdgeId::of(t, 0);
+        let b = DVec2::new(self.mesh.length(h), 0.0);
+        [DVec2::ZERO, b, self.apex(h, DVec2::ZERO, b)]
+    }
+}
+
+/// Where the apex of a half-edge's triangle is along the half-edge and to its left, in mm.
+fn beside(mesh: &Triangulation, h: HalfEdgeId) -> [f64; 2] {
+    let (p, q, o) = (mesh.point(mesh.from(h)), mesh.point(mesh.to(h)), mesh.point(mesh.apex(h)));
+    let (edge, side) = (q - p, o - p);
+    let length = edge.length();
+    [side.dot(edge) / length, edge.cross(side).length() / length]
+}
+
 struct Unfolded {
     start: DVec2,
     end: DVec2,
@@ -41,13 +85,14 @@ struct Unfolded {
     shore: Option<DVec2>,
 }
 
-fn unfold(mesh: &Triangulation, path: &Path) -> Option<Unfolded> {
+fn unfold(shapes: &Shapes<'_>, path: &Path) -> Option<Unfolded> {
+    let mesh = shapes.mesh;
     let first = match path.crossings.first() {
         Some(h) => h.triangle(),
         None => shared_triangle(mesh, path.start, path.end)?,
     };
     let mut triangle = first;
-    let mut flat = lay(mesh, triangle);
+    let mut flat = shapes.lay(triangle);
     let start = locate(mesh, path.start, triangle, &flat)?;
     let mut portals = Vec::with_capacity(path.crossings.len());
     for &h in &path.crossings {
@@ -61,7 +106,7 @@ fn unfold(mesh: &Triangulation, path: &Path) -> Option<Unfolded> {
         triangle = g.triangle();
         flat[k] = b;
         flat[(k + 1) % 3] = a;
-        flat[(k + 2) % 3] = apex(mesh, g, b, a);
+        flat[(k + 2) % 3] = shapes.apex(g, b, a);
     }
     let end = locate(mesh, path.end, triangle, &flat)?;
     let shore = match path.end {
@@ -82,24 +127,6 @@ fn shared_triangle(mesh: &Triangulation, start: End, end: End) -> Option<Triangl
     around(start).into_iter().find(|t| near_end.contains(t))
 }
 
-/// Lays a triangle flat, counter-clockwise as seen from outside.
-fn lay(mesh: &Triangulation, t: TriangleId) -> [DVec2; 3] {
-    let h = HalfEdgeId::of(t, 0);
-    let b = DVec2::new(mesh.length(h), 0.0);
-    [DVec2::ZERO, b, apex(mesh, h, DVec2::ZERO, b)]
-}
-
-/// Where the apex of `h`'s triangle comes when `h` lies from `a` to `b`: on its left.
-fn apex(mesh: &Triangulation, h: HalfEdgeId, a: DVec2, b: DVec2) -> DVec2 {
-    let (p, q, o) = (mesh.point(mesh.from(h)), mesh.point(mesh.to(h)), mesh.point(mesh.apex(h)));
-    let (edge, side) = (q - p, o - p);
-    let length = edge.length();
-    let x = side.dot(edge) / length;
-    let y = edge.cross(side).length() / length;
-    let along = (b - a).normalize_or_zero();
-    a + x * along + y * along.perp()
-}
-
 fn locate(mesh: &Triangulation, end: End, t: TriangleId, flat: &[DVec2; 3]) -> Option<DVec2> {
     match end {
         End::Vertex(v) => {
@@ -112,16 +139,24 @@ fn locate(mesh: &Triangulation, end: End, t: TriangleId, flat: &[DVec2; 3]) -> O
     }
 }
 
-/// The shortest path within the strip.
-pub(super) fn pull(mesh: &Triangulation, path: &Path) -> Result<Taut, SeamError> {
-    let flat = unfold(mesh, path)
+/// The taut string through a strip: the strip laid flat, the string's corners (the portal, whether on
+/// its left, and the place) and its knots from end to end.
+type Strung = (Unfolded, Vec<(usize, bool, DVec2)>, Vec<DVec2>);
+
+fn string(shapes: &Shapes<'_>, path: &Path) -> Result<Strung, SeamError> {
+    let flat = unfold(shapes, path)
         .ok_or_else(|| SeamError::Internal("the strip of a path is broken".to_owned()))?;
-    // Corners of the taut string: the portal, whether on its left, and the place.
     let corners = funnel(&flat);
     let mut knots = vec![flat.start];
     knots.extend(corners.iter().map(|&(.., place)| place));
     knots.push(flat.end);
-    let length = knots.windows(2).map(|k| k[0].distance(k[1])).sum();
+    Ok((flat, corners, knots))
+}
+
+/// Where the shortest path within the strip crosses each half-edge, as the part of the way from its
+/// start.
+pub(super) fn parts(shapes: &Shapes<'_>, path: &Path) -> Result<Vec<f64>, SeamError> {
+    let (flat, corners, knots) = string(shapes, path)?;
     let mut parts = Vec::with_capacity(flat.portals.len());
     let mut piece = 0;
     for (i, &(p, q)) in flat.portals.iter().enumerate() {
@@ -130,6 +165,14 @@ pub(super) fn pull(mesh: &Triangulation, path: &Path) -> Result<Taut, SeamError>
         }
         parts.push(crossing(knots[piece], knots[piece + 1], p, q));
     }
+    Ok(parts)
+}
+
+/// The shortest path within the strip.
+pub(super) fn pull(shapes: &Shapes<'_>, path: &Path) -> Result<Taut, SeamError> {
+    let (flat, corners, knots) = string(shapes, path)?;
+    let mesh = shapes.mesh;
+    let length = knots.windows(2).map(|k| k[0].distance(k[1])).sum();
     let mut bends = Vec::with_capacity(corners.len());
     for (k, &(portal, left, place)) in corners.iter().enumerate() {
         let at =
@@ -144,7 +187,7 @@ pub(super) fn pull(mesh: &Triangulation, path: &Path) -> Result<Taut, SeamError>
         bends.push(Bend { vertex, left, first, last, turn });
     }
     let arrival = knots[knots.len() - 1] - knots[knots.len() - 2];
-    Ok(Taut { length, parts, bends, arrival, shore: flat.shore })
+    Ok(Taut { length, parts: Vec::new(), bends, arrival, shore: flat.shore })
 }
 
 /// Where the segment `a b` crosses the portal `p q`, as the part of the way from `p`.

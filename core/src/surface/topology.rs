@@ -147,6 +147,7 @@ impl Surface {
     }
 
     /// The place of a vertex, in mm.
+    #[inline]
     #[must_use]
     pub fn point(&self, v: VertexId) -> DVec3 {
         self.points[v.index()]
@@ -159,12 +160,14 @@ impl Surface {
     }
 
     /// The corners of a triangle.
+    #[inline]
     #[must_use]
     pub fn triangle(&self, t: TriangleId) -> [VertexId; 3] {
         self.triangles[t.index()]
     }
 
     /// The places of a triangle's corners, in mm.
+    #[inline]
     #[must_use]
     pub fn corners(&self, t: TriangleId) -> [DVec3; 3] {
         self.triangle(t).map(|v| self.point(v))
@@ -212,18 +215,21 @@ impl Surface {
     }
 
     /// The half-edge on the other side, if the edge is not on the boundary.
+    #[inline]
     #[must_use]
     pub fn twin(&self, h: HalfEdgeId) -> Option<HalfEdgeId> {
         self.twins[h.index()]
     }
 
     /// Where a half-edge starts.
+    #[inline]
     #[must_use]
     pub fn from(&self, h: HalfEdgeId) -> VertexId {
         self.triangles[h.index() / 3][h.corner()]
     }
 
     /// Where a half-edge ends.
+    #[inline]
     #[must_use]
     pub fn to(&self, h: HalfEdgeId) -> VertexId {
         self.triangles[h.index() / 3][(h.corner() + 1) % 3]
@@ -275,6 +281,7 @@ impl Surface {
     }
 
     /// Length of a half-edge, in mm.
+    #[inline]
     #[must_use]
     pub fn length(&self, h: HalfEdgeId) -> f64 {
         self.point(self.from(h)).distance(self.point(self.to(h)))
@@ -295,12 +302,14 @@ impl Surface {
     }
 
     /// Outward unit normal of a triangle.
+    #[inline]
     #[must_use]
     pub fn normal(&self, t: TriangleId) -> DVec3 {
         self.area_vector(t).normalize_or_zero()
     }
 
     /// Area of a triangle, in mm².
+    #[inline]
     #[must_use]
     pub fn area(&self, t: TriangleId) -> f64 {
         0.5 * self.area_vector(t).length()

@@ -58,7 +58,7 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let mesh = surface::read(&limb.1, Format::Obj).map_err(|e| Failure::of(&e))?;
     let text = String::from_utf8_lossy(&wish.1);
     let design = design::parse(&text, None).map_err(|e| Failure::of(&e))?;
-    let flattening = flatten::fit(&mesh, &design, &Parameters::default(), quiet)?;
+    let (flattening, _) = flatten::fit(&mesh, &design, &Parameters::default(), quiet)?;
 
     let command = format!(
         "\nThe same by hand:\n  wovenfit flatten {} --design {} --out {}\n",

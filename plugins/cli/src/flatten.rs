@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
+use std::thread;
 use std::time::Instant;
 
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
@@ -15,6 +16,7 @@ use wovenfit_core::surface::RawMesh;
 use wovenfit_core::warning::Warning;
 use wovenfit_core::{Flattening, flatten};
 
+use crate::clock::{Clock, StageTimes, peak_mib};
 use crate::exit::Failure;
 use crate::output::Named;
 use crate::progress::Bar;
@@ -29,6 +31,10 @@ struct Summary<'a> {
     out: String,
     files: Vec<&'a str>,
     seconds: Seconds,
+    /// Of `fit`, by stage.
+    stages: StageTimes,
+    /// The most memory that was resident, where the system says it.
+    peak_mib: Option<f64>,
     converged: bool,
     pressures: &'a [PressureReport],
     warnings: &'a [Warning],
@@ -116,7 +122,7 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let design = input::design(design, parameters.units)?;
     output::ready(out)?;
     let read = start.elapsed();
-    let flattening = fit(&mesh, &design, &parameters, quiet)?;
+    let (flattening, stages) = fit(&mesh, &design, &parameters, quiet)?;
     let fitted = start.elapsed();
     let files = files(&flattening, &design);
     output::write_together(out, &files)?;
@@ -135,6 +141,8 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
             out: out.display().to_string(),
             files: files.iter().map(|(name, _)| name.as_str()).collect(),
             seconds,
+            stages,
+            peak_mib: peak_mib(),
             converged: report.fit.converged,
             pressures: &report.pressures,
             warnings: &report.warnings,
@@ -148,18 +156,20 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     Ok(ExitCode::SUCCESS)
 }
 
-/// Flattens, with a progress bar.
+/// Flattens, with a progress bar; how long the stages took.
 pub fn fit(
     mesh: &RawMesh,
     design: &Design,
     parameters: &Parameters,
     quiet: bool,
-) -> Result<Flattening, Failure> {
+) -> Result<(Flattening, StageTimes), Failure> {
     let bar = Bar::new(quiet);
-    let result = flatten(mesh, design, parameters, &bar);
+    let clock = Clock::new(&bar);
+    let result = flatten(mesh, design, parameters, &clock);
+    let stages = clock.stages();
     // Off the screen before anything else is written there.
     bar.finish();
-    result.map_err(|error| Failure::of(&error))
+    result.map(|flattening| (flattening, stages)).map_err(|error| Failure::of(&error))
 }
 
 /// The page that is read first.
@@ -178,12 +188,19 @@ pub fn files(flattening: &Flattening, design: &Design) -> Vec<Named> {
         pressure_kpa: Some(&field.pressure_kpa),
         limit_kpa: design.limits.max_kpa.unwrap_or(Limits::WARN_KPA),
     };
+    // The meshes while the page's pictures are drawn.
+    let (meshes, page) = thread::scope(|scope| {
+        let page = scope.spawn(|| report_html(&page));
+        let meshes = [worn_obj(disk, coordinates), flat_obj(disk, coordinates)];
+        (meshes, page.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    });
+    let [worn, flat] = meshes;
     [
-        ("worn.obj", worn_obj(disk, coordinates)),
-        ("flat.obj", flat_obj(disk, coordinates)),
+        ("worn.obj", worn),
+        ("flat.obj", flat),
         ("pattern.svg", pattern_svg(drawing)),
         ("report.json", report.to_json()),
-        (PAGE, report_html(&page)),
+        (PAGE, page),
     ]
     .map(|(name, text)| (name.to_owned(), text.into_bytes()))
     .into()

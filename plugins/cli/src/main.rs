@@ -6,6 +6,7 @@
 #![forbid(unsafe_code)]
 
 mod check;
+mod clock;
 mod demo;
 mod exit;
 mod flags;

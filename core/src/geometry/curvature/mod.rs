@@ -4,8 +4,10 @@
 //! from the triangles round each vertex, for clean meshes ([`MeyerCurvature`]). Curvatures are
 //! signed: where the surface bulges outward they are positive.
 
+mod clusters;
 mod meyer;
 mod operator;
+mod patch;
 mod scale;
 
 pub use meyer::{MeyerCurvature, VertexCurvature, meyer_mean_and_gaussian};
@@ -44,6 +46,15 @@ impl<'a> Curvature<'a> {
         match self {
             Self::Scale(scale) => scale.at(point),
             Self::Meyer(meyer) => meyer.at(point),
+        }
+    }
+
+    /// The shape operators at points of the surface.
+    #[must_use]
+    pub fn at_all(&self, points: &[SurfacePoint]) -> Vec<ShapeOperator> {
+        match self {
+            Self::Scale(scale) => scale.fit_all(points).into_iter().map(|fit| fit.shape).collect(),
+            Self::Meyer(meyer) => points.iter().map(|point| meyer.at(point)).collect(),
         }
     }
 

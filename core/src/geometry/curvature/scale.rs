@@ -18,13 +18,13 @@
 //! noise of 0.3 mm on edges of 2 mm gives a standard deviation of 30, 4.1 and 1.2 1/m over 5, 10
 //! and 15 mm.
 
-use std::collections::HashSet;
-
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::super::location::SurfacePoint;
+use super::clusters::{clusters, joined};
 use super::operator::ShapeOperator;
+use super::patch::fit_patch;
 use crate::surface::{Surface, VertexId};
 
 /// A patch of fewer points than this does not determine its six coefficients well.
@@ -45,23 +45,8 @@ const GROWTH: f64 = 1.25;
 /// The radius grows no further than this many times; beyond, the surface is smaller than a patch.
 const MOST_GROWTHS: usize = 24;
 
-/// Rounds of the fixed point for normal and g, at most. On a cylinder with radius / r = 2/3, far
-/// beyond use, the error after n rounds is about 10⁻ⁿ.
-const ROUNDS: usize = 8;
-
-/// The fixed point is reached when no curvature changes by more than this (times the radius)
-/// and the normal turns by no more: 0.01 1/m over 10 mm.
-const SETTLED: f64 = 1e-4;
-
-/// A fit that still changes by more than this (times the radius) in the last round does not settle:
-/// its points do not lie on a patch of one curvature. The same points are then fitted without g.
-const UNSETTLED: f64 = 1e-2;
-
-/// A coefficient that the others explain but for this share of its square is not determined by
-/// the points. No share is below 0.5 in a whole disk, 0.04 in half a disk (a free edge), 0.01 in a
-/// quarter (a corner). A few points near a conic, or all others of next to no weight at the rim,
-/// have far less, and would turn 0.01 mm of noise into any curvature.
-const DETERMINED: f64 = 1e-3;
+/// Patches that one thread fits at least: a search begins with clearing what it remembers.
+const AT_ONCE: usize = 64;
 
 /// Cosine of the angle to the point's normal beyond which a vertex is not fitted at all: a height
 /// function needs less than 90°, and at 73° a point weighs little in the tangent plane.
@@ -80,8 +65,21 @@ pub struct ScaleCurvature<'a> {
     /// The sample that stands for each vertex.
     sample_of: Vec<u32>,
     samples: Vec<Sample>,
-    /// The samples joined to each by an edge of the surface.
-    neighbours: Vec<Vec<u32>>,
+    /// Where each sample's neighbours begin in `neighbours`; one more at the end.
+    starts: Vec<u32>,
+    /// The samples joined to each by an edge of the surface, in order.
+    neighbours: Vec<u32>,
+}
+
+/// What the search for a patch's vertices remembers, to be used again for the next patch.
+#[derive(Debug)]
+struct Visits {
+    /// The search in which each sample was last met.
+    seen: Vec<u32>,
+    round: u32,
+    queue: Vec<u32>,
+    /// The samples found, in radii from the point, with their weights.
+    found: Vec<(DVec3, f64)>,
 }
 
 /// Vertices near to each other that are fitted as one: their middle, area and normal.
@@ -136,19 +134,8 @@ impl<'a> ScaleCurvature<'a> {
             sample.place = if whole { sample.place / sample.area } else { surface.point(seed) };
             sample.normal = sample.normal.normalize_or_zero();
         }
-        let mut neighbours = vec![Vec::new(); samples.len()];
-        for h in surface.half_edges() {
-            let ends = [surface.from(h), surface.to(h)].map(|v| sample_of[v.index()]);
-            if ends[0] != ends[1] {
-                neighbours[ends[0] as usize].push(ends[1]);
-                neighbours[ends[1] as usize].push(ends[0]);
-            }
-        }
-        for near in &mut neighbours {
-            near.sort_unstable();
-            near.dedup();
-        }
-        Self { surface, radius: radius_mm, normals, sample_of, samples, neighbours }
+        let (starts, neighbours) = joined(surface, &sample_of, samples.len());
+        Self { surface, radius: radius_mm, normals, sample_of, samples, starts, neighbours }
     }
 
     /// The radius asked for, in mm.
@@ -172,34 +159,76 @@ impl<'a> ScaleCurvature<'a> {
     /// The shape operators at all vertices, by vertex.
     #[must_use]
     pub fn at_vertices(&self) -> Vec<ShapeOperator> {
-        let count = self.surface.vertex_count();
-        (0..count).into_par_iter().map(|i| self.at_vertex(VertexId::new(i))).collect()
+        self.fit_vertices(1).into_iter().map(|fit| fit.shape).collect()
     }
 
     /// The patch round a point of the surface.
     #[must_use]
     pub fn fit(&self, point: &SurfacePoint) -> ScaleFit {
-        let corners = self.surface.triangle(point.triangle);
-        let w = point.barycentric.to_array();
-        let normal = (0..3).map(|k| w[k] * self.normals[corners[k].index()]).sum::<DVec3>();
-        let normal = normal.try_normalize().unwrap_or_else(|| self.surface.normal(point.triangle));
-        self.fit_from(point.position(self.surface), normal, &corners)
+        self.fit_point(&mut self.visits(), point)
+    }
+
+    /// The patches round points of the surface.
+    #[must_use]
+    pub fn fit_all(&self, points: &[SurfacePoint]) -> Vec<ScaleFit> {
+        points
+            .par_iter()
+            .with_min_len(AT_ONCE)
+            .map_init(|| self.visits(), |visits, point| self.fit_point(visits, point))
+            .collect()
     }
 
     /// The patch round a vertex.
     #[must_use]
     pub fn fit_vertex(&self, v: VertexId) -> ScaleFit {
-        self.fit_from(self.surface.point(v), self.normals[v.index()], &[v])
+        self.fit_at_vertex(&mut self.visits(), v)
     }
 
-    fn fit_from(&self, place: DVec3, normal: DVec3, seeds: &[VertexId]) -> ScaleFit {
+    /// The patches round the vertices 0, `step`, 2 · `step`, …
+    #[must_use]
+    pub fn fit_vertices(&self, step: usize) -> Vec<ScaleFit> {
+        (0..self.surface.vertex_count().div_ceil(step))
+            .into_par_iter()
+            .with_min_len(AT_ONCE)
+            .map_init(
+                || self.visits(),
+                |visits, i| self.fit_at_vertex(visits, VertexId::new(i * step)),
+            )
+            .collect()
+    }
+
+    fn visits(&self) -> Visits {
+        let (queue, found) = (Vec::with_capacity(256), Vec::with_capacity(256));
+        Visits { seen: vec![0; self.samples.len()], round: 0, queue, found }
+    }
+
+    fn fit_point(&self, visits: &mut Visits, point: &SurfacePoint) -> ScaleFit {
+        let corners = self.surface.triangle(point.triangle);
+        let w = point.barycentric.to_array();
+        let normal = (0..3).map(|k| w[k] * self.normals[corners[k].index()]).sum::<DVec3>();
+        let normal = normal.try_normalize().unwrap_or_else(|| self.surface.normal(point.triangle));
+        self.fit_from(visits, point.position(self.surface), normal, &corners)
+    }
+
+    fn fit_at_vertex(&self, visits: &mut Visits, v: VertexId) -> ScaleFit {
+        self.fit_from(visits, self.surface.point(v), self.normals[v.index()], &[v])
+    }
+
+    fn fit_from(
+        &self,
+        visits: &mut Visits,
+        place: DVec3,
+        normal: DVec3,
+        seeds: &[VertexId],
+    ) -> ScaleFit {
         let normal = normal.try_normalize().unwrap_or(DVec3::Z);
         let mut radius = self.radius;
         for _ in 0..MOST_GROWTHS {
-            let near = self.gather(place, normal, seeds, radius);
+            self.gather(visits, place, normal, seeds, radius);
+            let near = &visits.found;
             if near.len() >= FEWEST_POINTS
-                && let Some(fit) = fit_patch(normal, &near, radius, true)
-                    .or_else(|| fit_patch(normal, &near, radius, false))
+                && let Some(fit) = fit_patch(normal, near, radius, true)
+                    .or_else(|| fit_patch(normal, near, radius, false))
             {
                 return fit;
             }
@@ -213,23 +242,35 @@ impl<'a> ScaleCurvature<'a> {
         ScaleFit { shape: flat, radius_used: 0.0, points: 0, residual_mm: 0.0, offset_mm: 0.0 }
     }
 
-    /// The vertices connected to the seeds within a radius, with their weights.
+    fn neighbours(&self, sample: u32) -> &[u32] {
+        let [start, end] = [0, 1].map(|k| self.starts[sample as usize + k] as usize);
+        &self.neighbours[start..end]
+    }
+
+    /// Finds the vertices connected to the seeds within a radius, with their weights.
     fn gather(
         &self,
+        visits: &mut Visits,
         place: DVec3,
         normal: DVec3,
         seeds: &[VertexId],
         radius: f64,
-    ) -> Vec<(DVec3, f64)> {
-        let mut queue: Vec<u32> = seeds.iter().map(|v| self.sample_of[v.index()]).collect();
+    ) {
+        let Visits { seen, round, queue, found } = visits;
+        *round += 1;
+        queue.clear();
+        found.clear();
+        queue.extend(seeds.iter().map(|v| self.sample_of[v.index()]));
         queue.sort_unstable();
         queue.dedup();
         let seeds = queue.len();
-        let mut seen: HashSet<u32> = queue.iter().copied().collect();
-        let mut found = Vec::with_capacity(64);
+        for &seed in queue.iter() {
+            seen[seed as usize] = *round;
+        }
         let mut next = 0;
         while next < queue.len() {
-            let sample = self.samples[queue[next] as usize];
+            let at = queue[next];
+            let sample = &self.samples[at as usize];
             next += 1;
             let p = sample.place - place;
             let share = p.length_squared() / (radius * radius);
@@ -237,153 +278,18 @@ impl<'a> ScaleCurvature<'a> {
             let facing = ((cosine - LEAST_COSINE) / (FULL_COSINE - LEAST_COSINE)).clamp(0.0, 1.0);
             if share < 1.0 && facing > 0.0 {
                 let smooth = facing * facing * (3.0 - 2.0 * facing);
-                found.push((p, sample.area * smooth * (1.0 - share)));
+                found.push((p / radius, sample.area * smooth * (1.0 - share)));
             } else if next > seeds {
                 continue;
             }
-            for &n in &self.neighbours[queue[next - 1] as usize] {
-                if seen.insert(n) {
+            for &n in self.neighbours(at) {
+                if seen[n as usize] != *round {
+                    seen[n as usize] = *round;
                     queue.push(n);
                 }
             }
         }
-        found
     }
-}
-
-/// Gathers vertices connected within `squared` (mm²) of a seed; vertices further apart stay
-/// alone. The cluster of each vertex, and the clusters' seeds.
-fn clusters(surface: &Surface, squared: f64) -> (Vec<u32>, Vec<VertexId>) {
-    let mut cluster = vec![u32::MAX; surface.vertex_count()];
-    let mut seeds: Vec<VertexId> = Vec::new();
-    for seed in surface.vertex_ids() {
-        if cluster[seed.index()] != u32::MAX {
-            continue;
-        }
-        // As many clusters as vertices, whose indices fit 32 bits.
-        let number = seeds.len() as u32;
-        cluster[seed.index()] = number;
-        let mut stack = vec![seed];
-        while let Some(v) = stack.pop() {
-            for n in surface.neighbours(v) {
-                let near = surface.point(n).distance_squared(surface.point(seed)) <= squared;
-                if near && cluster[n.index()] == u32::MAX {
-                    cluster[n.index()] = number;
-                    stack.push(n);
-                }
-            }
-        }
-        seeds.push(seed);
-    }
-    (cluster, seeds)
-}
-
-/// Fits the patch to points relative to its middle, with weights, `bent` with the term of g and
-/// else the usual quadric; `None` if they do not determine it or it does not settle.
-fn fit_patch(
-    mut normal: DVec3,
-    near: &[(DVec3, f64)],
-    radius: f64,
-    bent: bool,
-) -> Option<ScaleFit> {
-    // κ of the height function in the frame's own tangents, times the radius (lengths are in
-    // radii inside the fit, so that its matrix has entries near one).
-    let mut curved = [0.0; 3];
-    let mut offset = 0.0;
-    let mut u = normal.any_orthonormal_vector();
-    let mut v = normal.cross(u);
-    let total: f64 = near.iter().map(|(_, w)| w).sum();
-    let mut residual = 0.0;
-    for round in 0..ROUNDS {
-        let mut system = [[0.0; 7]; 6];
-        let mut squares = 0.0;
-        for &(p, weight) in near {
-            let p = p / radius;
-            let (x, y, z) = (p.dot(u), p.dot(v), p.dot(normal));
-            let gradient = DVec2::new(curved[0] * x + curved[1] * y, curved[1] * x + curved[2] * y);
-            let steepest = gradient.length_squared();
-            let g = if bent && steepest > 0.0 {
-                (curved[0] * gradient.x * gradient.x
-                    + 2.0 * curved[1] * gradient.x * gradient.y
-                    + curved[2] * gradient.y * gradient.y)
-                    / steepest
-            } else {
-                0.0
-            };
-            let above = z - offset;
-            let row = [1.0, x, y, 0.5 * x * x, x * y, 0.5 * y * y];
-            let right = z - 0.5 * g * above * above;
-            for i in 0..6 {
-                for j in 0..=i {
-                    system[i][j] += weight * row[i] * row[j];
-                }
-                system[i][6] += weight * row[i] * right;
-            }
-            squares += weight * right * right;
-        }
-        let solution = solve_symmetric(&system)?;
-        let explained: f64 = (0..6).map(|i| solution[i] * system[i][6]).sum();
-        residual = radius * ((squares - explained).max(0.0) / total).sqrt();
-        let [a, b, c, auu, auv, avv] = solution;
-        offset = a;
-        let change = (0..3).map(|i| (curved[i] - [auu, auv, avv][i]).abs()).fold(0.0, f64::max);
-        curved = [auu, auv, avv];
-        let change = change.max(b.abs()).max(c.abs());
-        if change < SETTLED {
-            break;
-        }
-        if round + 1 == ROUNDS {
-            if change < UNSETTLED {
-                break;
-            }
-            return None;
-        }
-        // Turn the frame so that the patch's own gradient vanishes, and its curvatures with it.
-        let turned = (normal - b * u - c * v).normalize();
-        let turn = glam::DQuat::from_rotation_arc(normal, turned);
-        (u, normal) = ((turn * u).normalize(), turned);
-        v = normal.cross(u);
-    }
-    let k = -1.0 / radius;
-    let shape =
-        ShapeOperator { normal, u, v, kuu: k * curved[0], kuv: k * curved[1], kvv: k * curved[2] };
-    let finite = shape.tensor().is_finite() && normal.is_finite();
-    finite.then_some(ScaleFit {
-        shape,
-        radius_used: radius,
-        points: near.len(),
-        residual_mm: residual,
-        offset_mm: radius * offset,
-    })
-}
-
-/// Solves a symmetric positive definite 6 × 6 system (lower triangle, right-hand side in column
-/// 6) by LDLᵀ; `None` if it is singular or near it.
-fn solve_symmetric(system: &[[f64; 7]; 6]) -> Option<[f64; 6]> {
-    let mut l = [[0.0; 6]; 6];
-    let mut d = [0.0; 6];
-    for j in 0..6 {
-        let pivot = system[j][j] - (0..j).map(|k| l[j][k] * l[j][k] * d[k]).sum::<f64>();
-        if pivot.is_nan() || pivot <= DETERMINED * system[j][j] {
-            return None;
-        }
-        d[j] = pivot;
-        for i in j + 1..6 {
-            let sum: f64 = (0..j).map(|k| l[i][k] * l[j][k] * d[k]).sum();
-            l[i][j] = (system[i][j] - sum) / pivot;
-        }
-    }
-    let mut x = [0.0; 6];
-    for i in 0..6 {
-        x[i] = system[i][6] - (0..i).map(|k| l[i][k] * x[k]).sum::<f64>();
-    }
-    for i in 0..6 {
-        x[i] /= d[i];
-    }
-    for i in (0..6).rev() {
-        x[i] -= (i + 1..6).map(|k| l[k][i] * x[k]).sum::<f64>();
-    }
-    Some(x)
 }
 
 #[cfg(test)]

@@ -16,6 +16,9 @@ use super::{Format, RawMesh, ReadError, excerpt};
 
 pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, ReadError> {
     let text = as_text(bytes)?;
+    if let Some(mesh) = plain(&text) {
+        return Ok(mesh);
+    }
     let (mut points, mut faces, mut statements) = (0usize, 0usize, 0usize);
     let mut lines = String::with_capacity(text.len());
     for (_, line) in logical_lines(&text) {
@@ -75,6 +78,43 @@ pub(super) fn read(bytes: &[u8]) -> Result<RawMesh, ReadError> {
     polygons.remove(0);
     let points = mesh.positions.chunks_exact(3).map(DVec3::from_slice).collect();
     Ok(RawMesh { points, polygons })
+}
+
+/// The mesh of a file in which nothing is unusual, the same as by the long way below: three numbers
+/// a point, three corners or more a face, all in range, no line joined to the next. `None` if
+/// anything is otherwise: then `tobj` reads it, or the reason is looked for.
+fn plain(text: &str) -> Option<RawMesh> {
+    if text.contains('\\') {
+        return None;
+    }
+    let (mut points, mut polygons) = (Vec::new(), Vec::new());
+    for line in text.lines() {
+        let mut words = line.split_whitespace();
+        match words.next() {
+            Some("v") => {
+                let mut number = || words.next()?.parse::<f64>().ok();
+                points.push(DVec3::new(number()?, number()?, number()?));
+            }
+            Some("f") => {
+                let mut polygon = Vec::with_capacity(3);
+                for word in words {
+                    let index: i64 = position_part(word).parse().ok()?;
+                    // Negative indices count back from the points above the face.
+                    let above = if index < 0 { i64::try_from(points.len()).ok()? } else { -1 };
+                    polygon.push(usize::try_from(above + index).ok()?);
+                }
+                if polygon.len() < 3 {
+                    return None;
+                }
+                polygons.push(polygon);
+            }
+            Some("fo") => return None,
+            _ => {}
+        }
+    }
+    let known = |polygon: &Vec<usize>| polygon.iter().all(|&v| v < points.len());
+    let usual = !points.is_empty() && !polygons.is_empty() && polygons.iter().all(known);
+    usual.then_some(RawMesh { points, polygons })
 }
 
 fn push_word(line: &mut String, word: &str) {
@@ -255,6 +295,31 @@ mod tests {
         let text = format!("{SQUARE}f 1/1/1 2/1/1 3/1/1\nf -4 -2 -1 -3\n");
         for n in 0..text.len() {
             let _ = super::super::read(&text.as_bytes()[..n], Format::Obj);
+        }
+    }
+
+    #[test]
+    fn the_short_way_and_the_long_way_read_the_same() {
+        let long = |text: &str| read_text(&format!("# \\ no plain file\n{text}"));
+        for text in [
+            SQUARE,
+            "v 0 0 0\nv 1 0 0\nv 0 1e-3 0\nf 1//1 2//1 3//1\n",
+            "f 1 2 3\nv 0 0 0\nv 1 0 0 0.5\nv 0 1 0\nf -1 -2 -3\n",
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\n",
+            "v 0 0 0\nv 1 0 0\nv 1 1 0\nf +1 2/ 3/1/\n",
+        ] {
+            assert!(plain(text).is_some(), "{text}");
+            assert_eq!(read_text(text), long(text), "{text}");
+        }
+        for text in [
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n",
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 -4\n",
+            "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 0\n",
+            "v 0 0 0\nv 1 0 0\nv 0 1\nf 1 2 3\n",
+            "v 0 0 0\nv 1 0 0\nv 0 1 x\nf 1 2 3\n",
+            "v 0 0 0\nv 1 0 0\nf 1 2\n",
+        ] {
+            assert!(plain(text).is_none(), "{text}");
         }
     }
 }
