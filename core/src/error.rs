@@ -58,6 +58,12 @@ pub enum Error {
     /// The fabric does not cover the surface.
     #[error(transparent)]
     Mapping(#[from] MappingError),
+    /// A design was solved on a surface that was prepared for another.
+    #[error("the surface was prepared with another `{what}`: prepare it anew for this design")]
+    PreparedForAnother {
+        /// What differs.
+        what: &'static str,
+    },
     /// The job was cancelled.
     #[error("cancelled")]
     Cancelled,

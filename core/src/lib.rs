@@ -32,4 +32,4 @@ pub mod weave;
 
 pub use check::check;
 pub use error::Error;
-pub use pipeline::{Flattening, flatten};
+pub use pipeline::{Flattening, Prepared, flatten};

@@ -145,8 +145,7 @@ fn chosen<T: Copy + PartialEq>(value: T, choices: &[(&'static str, T)]) -> Strin
         .map_or_else(String::new, |(name, _)| (*name).to_owned())
 }
 
-const METHODS: [(&str, Method); 2] =
-    [("newton", Method::Newton), ("diffusion", Method::Diffusion)];
+const METHODS: [(&str, Method); 2] = [("newton", Method::Newton), ("diffusion", Method::Diffusion)];
 
 const ESTIMATES: [(&str, CurvatureEstimate); 2] =
     [("scale", CurvatureEstimate::Scale), ("meyer", CurvatureEstimate::Meyer)];

@@ -1,5 +1,8 @@
 //! The whole flow, one readable line a stage, in the paper's words.
 
+use std::cell::LazyCell;
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::denoise::{Calm, calm};
@@ -8,7 +11,7 @@ use crate::error::Error;
 use crate::export::Drawing;
 use crate::field::{Field, FieldInput, everywhere};
 use crate::fit::diffusion::diffuse;
-use crate::fit::newton::Prepared;
+use crate::fit::newton::Solver;
 use crate::fit::{Fit, FitError, FitInput};
 use crate::geometry::{Curvature, Girth, Locator, Measures, guard_unit, measure};
 use crate::mapping::Mapping;
@@ -26,8 +29,8 @@ use crate::warning::Warning;
 /// A flattened brace.
 #[derive(Debug, Clone)]
 pub struct Flattening {
-    /// The cut surface, in mm.
-    pub disk: Surface,
+    /// The cut surface with its seams, in mm.
+    pub cut: Arc<CutSurface>,
     /// Pattern coordinates of its vertices, in mm, x along warp, y along weft, the lower left
     /// corner of the pattern's extent at the origin.
     pub coordinates: Vec<DVec2>,
@@ -39,6 +42,17 @@ pub struct Flattening {
     pub drawing: Drawing,
     /// Every figure and warning.
     pub report: Report,
+    /// What the next fit of the same surface starts from.
+    fit: Fit,
+    annotations: Vec<Annotation>,
+}
+
+impl Flattening {
+    /// The cut surface, in mm.
+    #[must_use]
+    pub fn disk(&self) -> &Surface {
+        &self.cut.disk
+    }
 }
 
 /// What the stages found, for the report.
@@ -71,91 +85,224 @@ pub fn flatten(
     parameters: &Parameters,
     progress: &dyn Progress,
 ) -> Result<Flattening, Error> {
-    let begin = |stage| {
-        progress.report(stage, 0.0, None);
-        if progress.cancelled() { Err(Error::Cancelled) } else { Ok(()) }
-    };
+    Prepared::new(raw, design, parameters, progress)?.solve(design, parameters, None, progress)
+}
 
-    begin(Stage::Surface)?;
-    let Validated { surface, mut warnings, .. } =
-        validate(raw, &surface_options(design, parameters))?;
-    let (measures, calm) =
-        rayon::join(|| measure(&surface, parameters.girth_step), || calm(&surface, parameters));
-    warnings.extend(guard_size(&measures, design.unit, parameters)?);
-    let Calm { smoothed, radius, warning } = calm;
-    let surface = smoothed.unwrap_or(surface);
-    // The measures are those of the brace too if it covers all of the surface as it was given.
-    let whole = warning.is_none() && design.region.is_empty();
-    let measures = whole.then_some(measures);
-    warnings.extend(warning);
-    // What the scan's noise allows goes before what was asked for.
-    let given = parameters;
-    let parameters = &Parameters { curvature_radius: radius, ..parameters.clone() };
+/// A limb that is cut open and ready to be fitted: what does not change with pressures, fabric and
+/// markers.
+#[derive(Debug)]
+pub struct Prepared {
+    /// The whole scan, smoothed if it was noisy.
+    surface: Surface,
+    /// What the brace covers.
+    region: Surface,
+    cut: Arc<CutSurface>,
+    /// The initial parameterization Ω.
+    omega: Vec<DVec2>,
+    solver: Option<Solver>,
+    measures: Measures,
+    /// Radius over which curvature is read, in mm.
+    radius: f64,
+    warnings: Vec<Warning>,
+    design: Design,
+    parameters: Parameters,
+}
 
-    begin(Stage::Region)?;
-    let region = clip(&surface, &design.region)?;
-    warnings.extend(region.warnings);
+/// A stage begins.
+fn begin(progress: &dyn Progress, stage: Stage) -> Result<(), Error> {
+    progress.report(stage, 0.0, None);
+    if progress.cancelled() { Err(Error::Cancelled) } else { Ok(()) }
+}
 
-    begin(Stage::Cut)?;
-    let cut = with_orientation(open_to_disk(&region.surface, &design.seams)?, design);
-    warnings.extend(cut.warnings.iter().cloned());
-    let (markers, said) = place(&cut, design.orientation)?;
-    warnings.extend(said);
+impl Prepared {
+    /// Reads a limb for designs that want the same region, seams, facing and unit as this one.
+    ///
+    /// # Errors
+    /// If the surface cannot be used or cut.
+    pub fn new(
+        raw: &RawMesh,
+        design: &Design,
+        parameters: &Parameters,
+        progress: &dyn Progress,
+    ) -> Result<Self, Error> {
+        begin(progress, Stage::Surface)?;
+        let Validated { surface, mut warnings, .. } =
+            validate(raw, &surface_options(design, parameters))?;
+        let (measures, calm) =
+            rayon::join(|| measure(&surface, parameters.girth_step), || calm(&surface, parameters));
+        warnings.extend(guard_size(&measures, design.unit, parameters)?);
+        let Calm { smoothed, radius, warning } = calm;
+        let surface = smoothed.unwrap_or(surface);
+        // The measures are those of the brace too if it covers all of the surface as it was given.
+        let whole = warning.is_none() && design.region.is_empty();
+        warnings.extend(warning);
 
-    begin(Stage::Curvature)?;
-    let annotations = annotate(&surface, &cut, design, parameters)?;
+        begin(progress, Stage::Region)?;
+        let region = clip(&surface, &design.region)?;
+        warnings.extend(region.warnings);
+        let region = region.surface;
 
-    begin(Stage::Parameterization)?;
-    let omega = initial(&cut.disk, &markers.points)?;
-    warnings.extend(omega.warnings);
+        begin(progress, Stage::Cut)?;
+        let cut = with_orientation(open_to_disk(&region, &design.seams)?, design);
+        warnings.extend(cut.warnings.iter().cloned());
 
-    begin(Stage::Fit)?;
-    let fit = fit(&cut, &omega.coordinates, &markers, &annotations, design, parameters, progress)?;
-    let (coordinates, corner) = to_origin(&fit.coordinates);
+        begin(progress, Stage::Parameterization)?;
+        let (markers, _) = place(&cut, design.orientation)?;
+        let omega = initial(&cut.disk, &markers.points)?;
+        warnings.extend(omega.warnings);
+        let solver = match parameters.method {
+            Method::Newton => Some(Solver::new(&cut.disk, &cut.seams, parameters.equal_seams)?),
+            Method::Diffusion => None,
+        };
+        let measures = if whole { measures } else { measure(&region, parameters.girth_step) };
+        Ok(Self {
+            surface,
+            region,
+            cut: Arc::new(cut),
+            omega: omega.coordinates,
+            solver,
+            measures,
+            radius,
+            warnings,
+            design: design.clone(),
+            parameters: parameters.clone(),
+        })
+    }
 
-    begin(Stage::Report)?;
-    let pattern = pattern(&cut, &coordinates);
-    let free_edges = free_edges(&cut);
-    let brace = Brace {
-        disk: &cut.disk,
-        coordinates: &coordinates,
-        free_edges: &free_edges,
-        woven: fit.woven.as_ref(),
-        spacing: parameters.spacing,
-        targets: &fit.targets,
-        converged: fit.stopped.converged(),
-    };
-    let judgements = judge(&brace, &annotations, &design.fabric, design.pressure_model, parameters);
-    let field = everywhere(&FieldInput {
-        scan: &surface,
-        disk: &cut.disk,
-        coordinates: &coordinates,
-        seams: &cut.seams,
-        free_edges: &free_edges,
-        fabric: &design.fabric,
-        pressure_model: design.pressure_model,
-        parameters,
-    });
-    let measures = measures.unwrap_or_else(|| measure(&region.surface, parameters.girth_step));
-    let found = Found {
-        design,
-        parameters: given,
-        curvature_radius: radius,
-        region: &region.surface,
-        measures: &measures,
-        annotations: &annotations,
-        fit: &fit,
-        pattern: &pattern,
-        judgements: &judgements,
-        disk: &cut.disk,
-        coordinates: &coordinates,
-        field: &field,
-        y_zero: -corner.y,
-    };
-    let report = compose(&found, warnings);
-    let drawing = draw(&found, &cut, &coordinates, &markers);
-    let girths = measures.girths;
-    Ok(Flattening { disk: cut.disk, coordinates, field, girths, drawing, report })
+    /// What makes this preparation useless for a design and parameters, if anything.
+    fn changed(&self, design: &Design, parameters: &Parameters) -> Option<&'static str> {
+        let (d, p) = (&self.design, &self.parameters);
+        [
+            ("region", design.region == d.region),
+            ("seams", design.seams == d.seams),
+            ("facing", design.facing == d.facing),
+            ("units", design.unit == d.unit && parameters.units == p.units),
+            ("keep-largest", parameters.keep_largest == p.keep_largest),
+            ("close-holes", parameters.close_holes == p.close_holes),
+            ("denoise", parameters.denoise == p.denoise),
+            ("curvature", parameters.curvature == p.curvature),
+            ("curvature-radius", parameters.curvature_radius == p.curvature_radius),
+            ("girth-step", parameters.girth_step == p.girth_step),
+            ("equal-seams", parameters.equal_seams == p.equal_seams),
+            ("method", parameters.method == p.method),
+        ]
+        .into_iter()
+        .find_map(|(name, same)| (!same).then_some(name))
+    }
+
+    /// The pattern for a design, from an earlier one of the same preparation if there is one: after a
+    /// changed pressure, stiffness or marker that takes a part of the time.
+    ///
+    /// # Errors
+    /// If the design cannot be flattened, or wants another region, seams, facing, unit or parameter of
+    /// the preparation.
+    pub fn solve(
+        &self,
+        design: &Design,
+        parameters: &Parameters,
+        earlier: Option<&Flattening>,
+        progress: &dyn Progress,
+    ) -> Result<Flattening, Error> {
+        if let Some(what) = self.changed(design, parameters) {
+            return Err(Error::PreparedForAnother { what });
+        }
+        // What the scan's noise allows goes before what was asked for.
+        let given = parameters;
+        let parameters = &Parameters { curvature_radius: self.radius, ..parameters.clone() };
+        let cut = if design.orientation == self.design.orientation {
+            Arc::clone(&self.cut)
+        } else {
+            Arc::new(with_orientation((*self.cut).clone(), design))
+        };
+        let (markers, said) = place(&cut, design.orientation)?;
+        let mut warnings = self.warnings.clone();
+        warnings.extend(said);
+
+        begin(progress, Stage::Curvature)?;
+        let known = earlier.map_or(&[][..], |earlier| &earlier.annotations);
+        let annotations = annotate(&self.surface, &cut, design, parameters, known)?;
+
+        begin(progress, Stage::Fit)?;
+        let fit = self.fit(&cut, &markers, &annotations, design, parameters, earlier, progress)?;
+        let (coordinates, corner) = to_origin(&fit.coordinates);
+
+        begin(progress, Stage::Report)?;
+        let pattern = pattern(&cut, &coordinates);
+        let free_edges = free_edges(&cut);
+        let brace = Brace {
+            disk: &cut.disk,
+            coordinates: &coordinates,
+            free_edges: &free_edges,
+            woven: fit.woven.as_ref(),
+            spacing: parameters.spacing,
+            targets: &fit.targets,
+            converged: fit.stopped.converged(),
+        };
+        let judgements =
+            judge(&brace, &annotations, &design.fabric, design.pressure_model, parameters);
+        let field = everywhere(&FieldInput {
+            scan: &self.surface,
+            disk: &cut.disk,
+            coordinates: &coordinates,
+            seams: &cut.seams,
+            free_edges: &free_edges,
+            fabric: &design.fabric,
+            pressure_model: design.pressure_model,
+            parameters,
+        });
+        let found = Found {
+            design,
+            parameters: given,
+            curvature_radius: self.radius,
+            region: &self.region,
+            measures: &self.measures,
+            annotations: &annotations,
+            fit: &fit,
+            pattern: &pattern,
+            judgements: &judgements,
+            disk: &cut.disk,
+            coordinates: &coordinates,
+            field: &field,
+            y_zero: -corner.y,
+        };
+        let report = compose(&found, warnings);
+        let drawing = draw(&found, &cut, &coordinates, &markers);
+        let girths = self.measures.girths.clone();
+        Ok(Flattening { cut, coordinates, field, girths, drawing, report, fit, annotations })
+    }
+
+    /// Fits the fabric by the method chosen.
+    #[expect(clippy::too_many_arguments, reason = "one private caller, the stages before it")]
+    fn fit(
+        &self,
+        cut: &CutSurface,
+        markers: &Markers,
+        annotations: &[Annotation],
+        design: &Design,
+        parameters: &Parameters,
+        earlier: Option<&Flattening>,
+        progress: &dyn Progress,
+    ) -> Result<Fit, Error> {
+        let omega = upright(&self.omega, &cut.disk, &markers.points)?;
+        let input = FitInput {
+            disk: &cut.disk,
+            omega: &omega,
+            markers: &markers.points,
+            annotations,
+            fabric: &design.fabric,
+            pressure_model: design.pressure_model,
+            parameters,
+        };
+        if let Some(solver) = &self.solver {
+            return Ok(solver.fit(&input, earlier.map(|earlier| &earlier.fit), progress)?);
+        }
+        let rest = diffuse(&input, progress)?;
+        progress.report(Stage::Mapping, 0.0, None);
+        let mapped = Mapping::new(&cut.disk, &rest.model).vertices().map_err(FitError::from)?;
+        let coordinates = upright(&mapped, &cut.disk, &markers.points)?;
+        let rise = mean_y(&coordinates) - mean_y(&mapped);
+        Ok(rest.with_coordinates(coordinates, rise))
+    }
 }
 
 /// How the design and the parameters want the triangles read.
@@ -189,19 +336,26 @@ fn with_orientation(cut: CutSurface, design: &Design) -> CutSurface {
 /// Finds the wanted pressures on the surface and the curvature there.
 ///
 /// Curvature is that of the whole scan, not of the covered region alone: the limb goes on under the
-/// edge of the brace.
+/// edge of the brace. What is `known` from an earlier run is taken from there.
 fn annotate(
     surface: &Surface,
     cut: &CutSurface,
     design: &Design,
     parameters: &Parameters,
+    known: &[Annotation],
 ) -> Result<Vec<Annotation>, Error> {
     /// Farthest that a wanted pressure may lie from the surface, in mm.
     const FARTHEST: f64 = 10.0;
-    let curvature = Curvature::new(surface, parameters);
-    let (whole, covered) = (Locator::new(surface), Locator::new(&cut.disk));
+    // Trees over the whole surface, for places that are not known.
+    let curvature = LazyCell::new(|| Curvature::new(surface, parameters));
+    let whole = LazyCell::new(|| Locator::new(surface));
+    let covered = LazyCell::new(|| Locator::new(&cut.disk));
     let mut annotations = Vec::with_capacity(design.pressures.len());
     for (k, wanted) in design.pressures.iter().enumerate() {
+        if let Some(before) = known.iter().find(|before| before.at == wanted.at) {
+            annotations.push(Annotation { kpa: wanted.kpa, ..*before });
+            continue;
+        }
         let far = |distance| Error::PressureFar { number: k + 1, at: wanted.at, distance };
         let (on_scan, distance) = whole.closest(wanted.at).ok_or_else(|| far(f64::INFINITY))?;
         if distance > FARTHEST {
@@ -217,42 +371,6 @@ fn annotate(
         annotations.push(Annotation { at: wanted.at, point, kpa: wanted.kpa, shape });
     }
     Ok(annotations)
-}
-
-/// Fits the fabric by the method chosen.
-fn fit(
-    cut: &CutSurface,
-    omega: &[DVec2],
-    markers: &Markers,
-    annotations: &[Annotation],
-    design: &Design,
-    parameters: &Parameters,
-    progress: &dyn Progress,
-) -> Result<Fit, Error> {
-    let input = FitInput {
-        disk: &cut.disk,
-        seams: &cut.seams,
-        omega,
-        markers: &markers.points,
-        annotations,
-        fabric: &design.fabric,
-        pressure_model: design.pressure_model,
-        parameters,
-    };
-    match parameters.method {
-        Method::Newton => {
-            let prepared = Prepared::new(&cut.disk, &cut.seams, parameters.equal_seams)?;
-            Ok(prepared.fit(&input, None, progress)?)
-        }
-        Method::Diffusion => {
-            let rest = diffuse(&input, progress)?;
-            progress.report(Stage::Mapping, 0.0, None);
-            let mapped = Mapping::new(&cut.disk, &rest.model).vertices().map_err(FitError::from)?;
-            let coordinates = upright(&mapped, &cut.disk, &markers.points)?;
-            let rise = mean_y(&coordinates) - mean_y(&mapped);
-            Ok(rest.with_coordinates(coordinates, rise))
-        }
-    }
 }
 
 /// The mean y of a plane's points; turning by a hair about them does not change it.

@@ -9,11 +9,11 @@ pub enum Stage {
     Region,
     /// Cutting the region open into a disk.
     Cut,
-    /// Curvature at the annotated points.
-    Curvature,
     /// The initial planar parameterization Ω.
     Parameterization,
-    /// Moving the woven nodes to their place.
+    /// Curvature at the annotated points.
+    Curvature,
+    /// Moving the fabric to its place.
     Fit,
     /// Interpolating the surface-plane mapping.
     Mapping,

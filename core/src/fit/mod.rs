@@ -21,7 +21,6 @@ use crate::mapping::MappingError;
 use crate::parameterize::SparseError;
 use crate::parameters::Parameters;
 use crate::pressure::{Annotation, TargetError, Targets, Woven};
-use crate::seams::Seam;
 use crate::surface::Surface;
 
 /// What a fit starts from.
@@ -29,8 +28,6 @@ use crate::surface::Surface;
 pub struct FitInput<'a> {
     /// The cut surface.
     pub disk: &'a Surface,
-    /// What is sewn together.
-    pub seams: &'a [Seam],
     /// The initial parameterization Ω, in mm at true scale, by vertex.
     pub omega: &'a [DVec2],
     /// The orientation markers, the upper one first.

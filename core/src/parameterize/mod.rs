@@ -12,8 +12,8 @@ mod sparse;
 #[cfg(test)]
 mod tests;
 
-pub use quality::{MapQuality, flipped_triangles, map_quality, outline_crossings, signed_area};
 pub(crate) use flip_free::first_root;
+pub use quality::{MapQuality, flipped_triangles, map_quality, outline_crossings, signed_area};
 pub(crate) use rest::rest_triangles;
 pub use sparse::{Factor, Pattern, SparseError};
 

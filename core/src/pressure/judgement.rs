@@ -225,9 +225,8 @@ fn judge_one(
     let got_kpa = pressure_kpa(pressure_model, fabric, &curvature, &stretch);
     let got_local_kpa = pressure_kpa(pressure_model, fabric, &curvature, &local);
     let most = (parameters.miss_tolerance * annotation.kpa).max(LEAST_MISS_KPA);
-    let reason = ((got_kpa - annotation.kpa).abs() > most).then(|| {
-        why(brace, annotations, reached, k, fabric, pressure_model, parameters, got_kpa)
-    });
+    let reason = ((got_kpa - annotation.kpa).abs() > most)
+        .then(|| why(brace, annotations, reached, k, fabric, pressure_model, parameters, got_kpa));
     Judgement {
         got_kpa,
         got_local_kpa,

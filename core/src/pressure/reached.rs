@@ -150,13 +150,14 @@ pub fn reached(
             let round = patch(disk, coordinates, &annotation.point, radius);
             let shape = &annotation.shape;
             let mean = shape.mean();
-            let curvature = round.map_or(LocalCurvature { warp: mean, weft: mean, mean }, |patch| {
-                LocalCurvature {
-                    warp: shape.normal_curvature(patch.warp),
-                    weft: shape.normal_curvature(patch.weft),
-                    mean,
-                }
-            });
+            let curvature =
+                round.map_or(LocalCurvature { warp: mean, weft: mean, mean }, |patch| {
+                    LocalCurvature {
+                        warp: shape.normal_curvature(patch.warp),
+                        weft: shape.normal_curvature(patch.weft),
+                        mean,
+                    }
+                });
             let local = round.map_or(Stretch::without_shear(0.0, 0.0), |patch| patch.stretch);
             let threads = Stretch::without_shear(
                 warp[k].unwrap_or(local.warp),

@@ -371,7 +371,10 @@ mod tests {
                 let [low, mid, high] = [-h, 0.0, h].map(|h| course.at(inside + h)[0]);
                 if low > 0.0 && high > 0.0 {
                     assert!((first - (high - low) / (2.0 * h)).abs() < 1e-6);
-                    assert!((second - (high - 2.0 * mid + low) / (h * h)).abs() < 1e-2 * (1.0 + second.abs()));
+                    assert!(
+                        (second - (high - 2.0 * mid + low) / (h * h)).abs()
+                            < 1e-2 * (1.0 + second.abs())
+                    );
                 }
             }
         }

@@ -7,6 +7,7 @@ use super::{
 };
 use crate::design::Limits;
 use crate::field::reachable_kpa;
+use crate::parameters::Method;
 use crate::pipeline::Found;
 use crate::pressure::ThreadTarget;
 use crate::units::{PER_M_PER_PER_MM, mmhg_from_kpa};
@@ -77,6 +78,7 @@ fn fit(found: &Found<'_>) -> FitReport {
         converged: fit.stopped.converged(),
         stopped_by: fit.stopped.name(),
         energy: fit.misfit.energy,
+        energy_of_free_seams: fit.energy_of_free_seams,
         energy_unit: ENERGY_UNIT,
         e_ssd: fit.misfit.e_ssd,
         springs: fit.misfit.springs,
@@ -163,8 +165,12 @@ fn fit_warnings(found: &Found<'_>) -> Vec<Warning> {
             "not_converged",
             format!(
                 "not converged: the fit was stopped after {} iterations before it came to rest; \
-                 its pressures are not those of the finished pattern; raise max-iterations",
-                found.fit.iterations
+                 its pressures are not those of the finished pattern; raise {}",
+                found.fit.iterations,
+                match found.parameters.method {
+                    Method::Newton => "newton-steps",
+                    Method::Diffusion => "max-iterations",
+                }
             ),
         ));
     }

@@ -63,6 +63,7 @@ pub(super) fn report() -> Report {
             converged: true,
             stopped_by: "plateau",
             energy: 12.5,
+            energy_of_free_seams: Some(0.0),
             energy_unit: ENERGY_UNIT,
             e_ssd: 3.5,
             springs: 5000,

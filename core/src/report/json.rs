@@ -120,17 +120,20 @@ pub struct FitReport {
     pub iterations: u64,
     /// Whether it ended before its maximum, at its tolerance or its plateau.
     pub converged: bool,
-    /// Why it ended: `tolerance`, `plateau`, `maximum`.
+    /// Why it ended: `gradient`; `strain_tolerance` or `plateau` (diffusion); `max_iterations`.
     pub stopped_by: &'static str,
     /// Energy of all springs, in the unit of `energy_unit`.
     pub energy: f64,
+    /// Energy without the condition that sewn edges have equal lengths, in the same unit, where they
+    /// have: what the seams cost is the difference.
+    pub energy_of_free_seams: Option<f64>,
     /// [`ENERGY_UNIT`].
     pub energy_unit: &'static str,
     /// Sum of squared strain differences of warp and weft springs, Eq. (14).
     pub e_ssd: f64,
     /// Number of warp and weft springs: what `e_ssd` is a sum over.
     pub springs: usize,
-    /// Number of woven nodes.
+    /// Number of woven nodes, or of the surface's vertices.
     pub nodes: usize,
     /// Distance of neighbouring threads at rest, in mm.
     pub spacing_mm: f64,

@@ -177,7 +177,8 @@ pub const PAGE: &str = "report.html";
 
 /// The files of a pattern.
 pub fn files(flattening: &Flattening, design: &Design) -> Vec<Named> {
-    let Flattening { disk, coordinates, field, girths, drawing, report } = flattening;
+    let Flattening { coordinates, field, girths, drawing, report, .. } = flattening;
+    let disk = flattening.disk();
     let page = PageInput {
         disk,
         coordinates,

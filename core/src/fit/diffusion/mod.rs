@@ -286,7 +286,6 @@ mod tests {
         let parameters = Parameters::default();
         let input = FitInput {
             disk: &disk,
-            seams: &[],
             omega: &omega,
             markers: &markers,
             annotations: &annotations,

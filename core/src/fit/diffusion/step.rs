@@ -7,8 +7,8 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::fit::stiffness;
 use crate::design::Fabric;
+use crate::fit::stiffness;
 use crate::geometry::{SurfacePoint, walk};
 use crate::surface::Surface;
 use crate::weave::{RestLengths, SpringKind, WovenModel};

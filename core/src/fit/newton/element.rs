@@ -109,15 +109,10 @@ pub fn energy(g: &Gradients, k: &Springs, wanted: &Stretches) -> f64 {
         .sum()
 }
 
-/// Energy per worn area with its derivatives by ∇x, ∇y and c.
+/// Second derivatives of the energy per worn area by ∇x, ∇y and c: Σ k ∂r ∂r, never negative, plus the
+/// share asked for of Σ k r ∂²r. Lower triangle.
 #[derive(Debug, Clone, Copy)]
-pub struct Expansion {
-    /// First derivatives.
-    pub slope: [f64; LOCAL],
-    /// Second derivatives: Σ k ∂r ∂r, never negative, plus the share asked for of Σ k r ∂²r. Lower
-    /// triangle.
-    pub bend: [[f64; LOCAL]; LOCAL],
-}
+pub struct Bend([[f64; LOCAL]; LOCAL]);
 
 /// The first derivatives alone, at a triangle that is not turned over.
 pub fn slope(g: &Gradients, k: &Springs, wanted: &Stretches) -> [f64; LOCAL] {
@@ -152,16 +147,15 @@ pub fn force_at_corners(slope: &[f64; LOCAL], hats: &[DVec2; 3], area: f64) -> [
     force
 }
 
-/// The expansion at a triangle that is not turned over; `share` (0 to 1) of the second-order part is
+/// Second derivatives at a triangle that is not turned over; `share` (0 to 1) of the second-order part is
 /// added to the Gauss–Newton matrix.
-pub fn expand(g: &Gradients, k: &Springs, wanted: &Stretches, share: f64) -> Expansion {
+pub fn bend(g: &Gradients, k: &Springs, wanted: &Stretches, share: f64) -> Bend {
     let d = g.determinant();
     let root = d.sqrt();
     let inverse = 1.0 / root;
     let by_d = 1.0 / d;
     // ∂d by (∇x, ∇y).
     let dd = [g.y.y, -g.y.x, -g.x.y, g.x.x];
-    let mut slope = [0.0; LOCAL];
     let mut bend = [[0.0; LOCAL]; LOCAL];
     for (k, alpha, beta, [length, length1, length2]) in springs(k, wanted) {
         let v = alpha * g.x + beta * g.y;
@@ -179,7 +173,6 @@ pub fn expand(g: &Gradients, k: &Springs, wanted: &Stretches, share: f64) -> Exp
             -length1 * root,
         ];
         for i in 0..LOCAL {
-            slope[i] += k * r * dr[i];
             for j in 0..=i {
                 bend[i][j] += k * dr[i] * dr[j];
             }
@@ -207,10 +200,10 @@ pub fn expand(g: &Gradients, k: &Springs, wanted: &Stretches, share: f64) -> Exp
         bend[2][1] += kr * half;
         bend[4][4] -= kr * length2 * root;
     }
-    Expansion { slope, bend }
+    Bend(bend)
 }
 
-/// Adds the first derivatives of ½ s (∇y · along)² or ½ s (∇x · along)²: see [`Expansion::turn`].
+/// Adds the first derivatives of ½ s (∇y · along)² or ½ s (∇x · along)²: see [`Bend::turn`].
 pub fn turn(slope: &mut [f64; LOCAL], g: &Gradients, of_y: bool, along: DVec2, s: f64) {
     let (v, at) = if of_y { (g.y, 2) } else { (g.x, 0) };
     let off = v.dot(along);
@@ -218,22 +211,19 @@ pub fn turn(slope: &mut [f64; LOCAL], g: &Gradients, of_y: bool, along: DVec2, s
     slope[at + 1] += s * off * along.y;
 }
 
-impl Expansion {
-    /// Adds ½ s (∇y · along)² or ½ s (∇x · along)²: a spring that turns a thread into a direction;
-    /// `felt` of it in the second derivatives.
-    pub fn turn(&mut self, g: &Gradients, of_y: bool, along: DVec2, s: f64, felt: f64) {
-        turn(&mut self.slope, g, of_y, along, s);
+impl Bend {
+    /// Adds ½ s (∇y · along)² or ½ s (∇x · along)²: a spring that turns a thread into a direction.
+    pub fn turn(&mut self, of_y: bool, along: DVec2, s: f64) {
         let at = if of_y { 2 } else { 0 };
         let [a, b] = along.to_array();
-        self.bend[at][at] += felt * s * a * a;
-        self.bend[at + 1][at] += felt * s * a * b;
-        self.bend[at + 1][at + 1] += felt * s * b * b;
+        self.0[at][at] += s * a * a;
+        self.0[at + 1][at] += s * a * b;
+        self.0[at + 1][at + 1] += s * b * b;
     }
 
-    /// By the corners' pattern coordinates (x₀, y₀, x₁, y₁, x₂, y₂), times the worn area: gradient,
-    /// and Hessian as its lower triangle row by row.
+    /// Second derivatives by the corners' pattern coordinates, times the worn area.
     pub fn at_corners(&self, hats: &[DVec2; 3], area: f64) -> Element {
-        let h = |i: usize, j: usize| if i >= j { self.bend[i][j] } else { self.bend[j][i] };
+        let h = |i: usize, j: usize| if i >= j { self.0[i][j] } else { self.0[j][i] };
         let mut columns = [[0.0; LOCAL]; 6];
         for k in 0..3 {
             let [a, b] = hats[k].to_array();
@@ -255,16 +245,14 @@ impl Expansion {
                 at += 1;
             }
         }
-        Element { force: force_at_corners(&self.slope, hats, area), stiffness }
+        Element { stiffness }
     }
 }
 
-/// A triangle's part of the gradient (N) and of the Hessian (N/mm).
+/// A triangle's part of the Hessian, in N/mm.
 #[derive(Debug, Clone, Copy)]
 pub struct Element {
-    /// By x₀, y₀, x₁, y₁, x₂, y₂.
-    pub force: [f64; 6],
-    /// Lower triangle, row by row.
+    /// By x₀, y₀, x₁, y₁, x₂, y₂: lower triangle, row by row.
     pub stiffness: [f64; 21],
 }
 
@@ -294,21 +282,21 @@ mod tests {
     fn element(p: &[f64; 6], share: f64) -> Element {
         let c = (p[1] + p[3] + p[5]) / 3.0;
         let g = Gradients::new(&HATS, corners(p));
-        expand(&g, &K, &wanted(c), share).at_corners(&HATS, 2.5)
+        bend(&g, &K, &wanted(c), share).at_corners(&HATS, 2.5)
+    }
+
+    fn force(p: &[f64; 6]) -> [f64; 6] {
+        let c = (p[1] + p[3] + p[5]) / 3.0;
+        let g = Gradients::new(&HATS, corners(p));
+        force_at_corners(&slope(&g, &K, &wanted(c)), &HATS, 2.5)
     }
 
     const AT: [f64; 6] = [0.1, 0.2, 1.9, 0.5, 0.8, 2.7];
 
     #[test]
     fn the_gradient_is_that_of_the_energy() {
-        let force = element(&AT, 1.0).force;
-        let alone = force_at_corners(
-            &slope(&Gradients::new(&HATS, corners(&AT)), &K, &wanted((0.2 + 0.5 + 2.7) / 3.0)),
-            &HATS,
-            2.5,
-        );
+        let force = force(&AT);
         for i in 0..6 {
-            assert!((force[i] - alone[i]).abs() < 1e-13);
             let step = |h: f64| {
                 let mut p = AT;
                 p[i] += h;
@@ -328,7 +316,7 @@ mod tests {
                 let step = |h: f64| {
                     let mut p = AT;
                     p[column] += h;
-                    element(&p, 1.0).force[row]
+                    force(&p)[row]
                 };
                 let difference = (step(1e-5) - step(-1e-5)) / 2e-5;
                 assert!((stiffness[at] - difference).abs() < 1e-7, "{row} {column}");
@@ -351,8 +339,10 @@ mod tests {
                 random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
                 *x = (random >> 40) as f64 / f64::from(1 << 24) - 0.5;
             }
-            let square: f64 =
-                (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| v[i] * at(i, j) * v[j]).sum();
+            let square: f64 = (0..6)
+                .flat_map(|i| (0..6).map(move |j| (i, j)))
+                .map(|(i, j)| v[i] * at(i, j) * v[j])
+                .sum();
             assert!(square > -1e-12, "{square}");
         }
     }
@@ -368,21 +358,20 @@ mod tests {
     }
 
     #[test]
-    fn the_turning_spring_is_quadratic() {
+    fn the_turning_springs_derivatives_are_those_of_its_energy() {
         let g = Gradients { x: DVec2::new(0.9, 0.1), y: DVec2::new(-0.2, 0.8) };
         let along = DVec2::from_angle(0.3);
-        let wanted = wanted(0.0);
-        let with = |g: &Gradients| {
-            let mut e = expand(g, &K, &wanted, 0.0);
-            let before = e.slope;
-            e.turn(g, true, along, 0.7, 1.0);
-            [2, 3].map(|i| e.slope[i] - before[i])
-        };
+        let mut first = [0.0; LOCAL];
+        turn(&mut first, &g, true, along, 0.7);
+        let mut second = Bend([[0.0; LOCAL]; LOCAL]);
+        second.turn(true, along, 0.7);
         let energy = |y: DVec2| 0.35 * y.dot(along).powi(2);
-        let slope = with(&g);
+        let h = 1e-4;
         for (i, axis) in [DVec2::X, DVec2::Y].into_iter().enumerate() {
-            let difference = (energy(g.y + 1e-6 * axis) - energy(g.y - 1e-6 * axis)) / 2e-6;
-            assert!((slope[i] - difference).abs() < 1e-9);
+            let [low, high] = [-h, h].map(|h| energy(g.y + h * axis));
+            assert!((first[2 + i] - (high - low) / (2.0 * h)).abs() < 1e-9);
+            let bent = (high - 2.0 * energy(g.y) + low) / (h * h);
+            assert!((second.0[2 + i][2 + i] - bent).abs() < 1e-6);
         }
     }
 }

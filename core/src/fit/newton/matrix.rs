@@ -179,7 +179,8 @@ impl Matrix {
                     values[first + 1] += at(1, 0);
                     values[second] += at(1, 1);
                 } else {
-                    let (low, high) = if turned[k] { (at(0, 1), at(1, 0)) } else { (at(1, 0), at(0, 1)) };
+                    let (low, high) =
+                        if turned[k] { (at(0, 1), at(1, 0)) } else { (at(1, 0), at(0, 1)) };
                     values[first + 1] += low;
                     values[second] += high;
                     values[second + 1] += at(1, 1);
@@ -201,7 +202,8 @@ impl Matrix {
                     values[first + 1] += at(1, 0);
                     values[second] += at(1, 1);
                 } else {
-                    let (low, high) = if turned { (at(0, 1), at(1, 0)) } else { (at(1, 0), at(0, 1)) };
+                    let (low, high) =
+                        if turned { (at(0, 1), at(1, 0)) } else { (at(1, 0), at(0, 1)) };
                     values[first] += at(0, 0);
                     values[first + 1] += low;
                     values[second] += high;
@@ -399,7 +401,7 @@ mod tests {
                     stiffness[triangular(i, j)] = b[i] * b[j];
                 }
             }
-            elements.push(Element { force: [0.0; 6], stiffness });
+            elements.push(Element { stiffness });
         }
         let mut values = vec![0.0; matrix.len()];
         matrix.add_triangles(&mut values, &elements);
@@ -419,10 +421,8 @@ mod tests {
         let mean = (0..2 * n).map(|i| dense[i][i]).sum::<f64>() / (2 * n) as f64;
         assert!((matrix.mean_diagonal(&values) - mean).abs() < 1e-12);
         let wanted: Vec<f64> = (0..2 * n).map(|i| (i as f64).sin()).collect();
-        let right: Vec<f64> = dense
-            .iter()
-            .map(|row| row.iter().zip(&wanted).map(|(a, b)| a * b).sum())
-            .collect();
+        let right: Vec<f64> =
+            dense.iter().map(|row| row.iter().zip(&wanted).map(|(a, b)| a * b).sum()).collect();
         let factor = matrix.factorize(&values, Vec::new()).unwrap().ok().unwrap();
         let [x] = factor.solve([&right]);
         for (got, want) in x.iter().zip(&wanted) {

@@ -38,20 +38,20 @@ use crate::progress::Progress;
 use crate::seams::Seam;
 use crate::surface::Surface;
 
-/// What of the problem does not change with pressures, fabric and markers.
-pub struct Prepared {
+/// A prepared surface: what of the fit does not change with pressures, fabric and markers.
+pub struct Solver {
     triangles: Triangles,
     sewn: Sewn,
     matrix: Matrix,
 }
 
-impl std::fmt::Debug for Prepared {
+impl std::fmt::Debug for Solver {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Prepared").field("factor_len", &self.matrix.factor_len()).finish()
+        f.debug_struct("Solver").field("factor_len", &self.matrix.factor_len()).finish()
     }
 }
 
-impl Prepared {
+impl Solver {
     /// Prepares a cut surface.
     ///
     /// # Errors

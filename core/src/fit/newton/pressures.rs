@@ -116,7 +116,9 @@ impl<'a> Threads<'a> {
         };
         if self.rounds == 0 {
             let mut order: Vec<usize> = (0..annotations.len()).collect();
-            order.sort_by(|&a, &b| reached[a].place.y.total_cmp(&reached[b].place.y).then(a.cmp(&b)));
+            order.sort_by(|&a, &b| {
+                reached[a].place.y.total_cmp(&reached[b].place.y).then(a.cmp(&b))
+            });
             self.groups.clear();
             let mut first = f64::NEG_INFINITY;
             for k in order {
@@ -168,9 +170,9 @@ impl<'a> Threads<'a> {
 
     fn with(&self, coordinates: &[DVec2], asked: &[Option<f64>]) -> Targets {
         let FitInput { disk, annotations, fabric, parameters, .. } = self.input;
-        let [low, high] = coordinates.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| {
-            [l.min(p.y), h.max(p.y)]
-        });
+        let [low, high] = coordinates
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| [l.min(p.y), h.max(p.y)]);
         let place = |k: usize| annotations[k].point.interpolate(disk, coordinates).y;
         let mut threads: Vec<ThreadTarget> = self
             .groups
@@ -323,7 +325,8 @@ impl LeastSquares {
                     continue;
                 }
                 let sum: f64 = self.normal[i].iter().zip(&x).map(|(a, b)| a * b).sum();
-                let next = (x[i] + (self.right[i] - sum) / diagonal).clamp(limits[i][0], limits[i][1]);
+                let next =
+                    (x[i] + (self.right[i] - sum) / diagonal).clamp(limits[i][0], limits[i][1]);
                 change = change.max((next - x[i]).abs());
                 x[i] = next;
             }

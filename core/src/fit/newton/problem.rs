@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::Prepared;
+use super::Solver;
 use super::element::{Element, Springs};
 use super::matrix::Factored;
 use super::seam::Courses;
@@ -22,7 +22,7 @@ const PINNED: usize = 0;
 /// A fit without its state.
 pub struct Problem<'a> {
     /// The surface.
-    pub prepared: &'a Prepared,
+    pub solver: &'a Solver,
     /// What is wanted.
     pub input: &'a FitInput<'a>,
     /// The fabric's stiffness.
@@ -71,8 +71,8 @@ pub struct Room {
 }
 
 impl<'a> Problem<'a> {
-    /// The fit of a prepared surface.
-    pub fn new(prepared: &'a Prepared, input: &'a FitInput<'a>) -> Self {
+    /// The fit of a solver surface.
+    pub fn new(solver: &'a Solver, input: &'a FitInput<'a>) -> Self {
         let mut upright = Vec::with_capacity(6);
         for (marker, sign) in input.markers.iter().zip([1.0, -1.0]) {
             let weights = marker.barycentric.to_array();
@@ -82,19 +82,19 @@ impl<'a> Problem<'a> {
         }
         let fabric = input.fabric;
         let springs = Springs { warp: fabric.warp, weft: fabric.weft, diagonal: fabric.diagonal };
-        Self { prepared, input, springs, upright }
+        Self { solver, input, springs, upright }
     }
 
     /// Energy with turning springs and seams, in N·mm.
     pub fn value(&self, at: &Place<'_>) -> f64 {
-        let Prepared { triangles, sewn, .. } = self.prepared;
+        let Solver { triangles, sewn, .. } = self.solver;
         triangles.energy(at.coordinates, &self.springs, at.wanted, at.turning)
             + sewn.energy(at.coordinates, self.input.fabric)
     }
 
     /// Minus the gradient of it, in N.
     pub fn downhill(&self, at: &Place<'_>, courses: &Courses) -> Vec<f64> {
-        let Prepared { triangles, sewn, .. } = self.prepared;
+        let Solver { triangles, sewn, .. } = self.solver;
         let mut force = triangles.gradient(at.coordinates, &self.springs, at.wanted, at.turning);
         sewn.add_forces(&mut force, at.coordinates, courses, self.input.fabric);
         for f in &mut force {
@@ -114,7 +114,7 @@ impl<'a> Problem<'a> {
         equal_seams: bool,
         room: &mut Room,
     ) -> Result<Option<Model<'a>>, FitError> {
-        let Prepared { triangles, sewn, matrix } = self.prepared;
+        let Solver { triangles, sewn, matrix } = self.solver;
         let Room { elements, values, factor } = room;
         let coordinates = at.coordinates;
         triangles.elements(coordinates, &self.springs, at.wanted, at.turning, share, elements);
@@ -151,7 +151,7 @@ impl<'a> Problem<'a> {
 
     /// Shares of the vertices in the pattern's area, as forces along weft.
     fn shares(&self, coordinates: &[DVec2]) -> Vec<f64> {
-        let shares = self.prepared.triangles.shares(coordinates);
+        let shares = self.solver.triangles.shares(coordinates);
         let whole: f64 = shares.iter().sum();
         shares.iter().flat_map(|share| [0.0, share / whole]).collect()
     }

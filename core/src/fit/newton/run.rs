@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::Prepared;
+use super::Solver;
 use super::anderson::Anderson;
 use super::pressures::Threads;
 use super::problem::{Model, Place, Problem, Room};
@@ -73,7 +73,7 @@ fn turned_upright(coordinates: &[DVec2], input: &FitInput<'_>) -> Vec<DVec2> {
 impl<'a> Run<'a> {
     /// From the initial parameterization, or from an earlier fit.
     pub fn new(
-        prepared: &'a Prepared,
+        solver: &'a Solver,
         input: &'a FitInput<'a>,
         earlier: Option<&Fit>,
         progress: &'a dyn Progress,
@@ -85,7 +85,7 @@ impl<'a> Run<'a> {
             threads.resume(&fit.targets);
         }
         Self {
-            problem: Problem::new(prepared, input),
+            problem: Problem::new(solver, input),
             progress,
             coordinates,
             threads,
@@ -111,7 +111,7 @@ impl<'a> Run<'a> {
         self.record(&targets);
         let stopped = loop {
             let wanted = self.wanted(&targets);
-            let turning = self.problem.prepared.triangles.turning(
+            let turning = self.problem.solver.triangles.turning(
                 &self.coordinates,
                 &self.problem.springs,
                 &wanted,
@@ -119,9 +119,6 @@ impl<'a> Run<'a> {
             );
             let step = self.step(&wanted, &turning)?;
             let moved = self.advance(&step, &wanted, &turning);
-            if std::env::var_os("WFDEBUG").is_some() {
-                eprintln!("{} it {} largest {:.4e} slope {:.3e} share {} kept {}", if self.kept {" "} else {"F"}, self.iterations, step.largest, step.slope, self.share, self.model.is_some());
-            }
             self.iterations += 1;
             self.last = step.largest;
             self.far = step.largest > FAR_MM;
@@ -160,8 +157,8 @@ impl<'a> Run<'a> {
     }
 
     fn misfit(&self, wanted: &Wanted) -> Misfit {
-        let Problem { prepared, springs, input, .. } = &self.problem;
-        prepared.triangles.misfit(&self.coordinates, springs, wanted, input.parameters.spacing)
+        let Problem { solver, springs, input, .. } = &self.problem;
+        solver.triangles.misfit(&self.coordinates, springs, wanted, input.parameters.spacing)
     }
 
     fn record(&mut self, targets: &Targets) {
@@ -229,12 +226,13 @@ impl<'a> Run<'a> {
 
     /// Moves the vertices; whether they moved.
     fn advance(&mut self, step: &Step, wanted: &Wanted, turning: &[Turning]) -> bool {
-        let longest = self.problem.prepared.triangles.longest_step(&self.coordinates, &step.motion);
+        let longest = self.problem.solver.triangles.longest_step(&self.coordinates, &step.motion);
         if longest == 1.0 && step.largest < TRUSTED_MM {
             let motion = self.anderson.motion(&self.coordinates, &step.motion);
             let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
-            let longest = self.problem.prepared.triangles.longest_step(&self.coordinates, &motion);
-            let motion = if longest == 1.0 && largest < TRUSTED_MM { &motion } else { &step.motion };
+            let longest = self.problem.solver.triangles.longest_step(&self.coordinates, &motion);
+            let motion =
+                if longest == 1.0 && largest < TRUSTED_MM { &motion } else { &step.motion };
             for (p, d) in self.coordinates.iter_mut().zip(motion) {
                 *p += *d;
             }
@@ -244,9 +242,8 @@ impl<'a> Run<'a> {
         let tried = |length: f64| -> Vec<DVec2> {
             self.coordinates.iter().zip(&step.motion).map(|(&p, &d)| p + length * d).collect()
         };
-        let value = |coordinates: &[DVec2]| {
-            self.problem.value(&Place { coordinates, wanted, turning })
-        };
+        let value =
+            |coordinates: &[DVec2]| self.problem.value(&Place { coordinates, wanted, turning });
         let before = value(&self.coordinates);
         let mut length = longest;
         for _ in 0..HALVINGS {
@@ -280,12 +277,11 @@ impl<'a> Run<'a> {
         let Some(model) = &self.model else { return false };
         let gradient = |targets: &Targets| {
             let wanted = Wanted::new(targets, problem.input.fabric.weft_strain);
-            problem.prepared.triangles.gradient(coordinates, &problem.springs, &wanted, &[])
+            problem.solver.triangles.gradient(coordinates, &problem.springs, &wanted, &[])
         };
         let here = gradient(&self.threads.targets(coordinates));
         let corrected = self.threads.correct(coordinates, |other| {
-            let forces: Vec<f64> =
-                here.iter().zip(gradient(other)).map(|(a, b)| a - b).collect();
+            let forces: Vec<f64> = here.iter().zip(gradient(other)).map(|(a, b)| a - b).collect();
             problem.answer(model, coordinates, &forces)
         });
         if corrected {
@@ -298,17 +294,29 @@ impl<'a> Run<'a> {
 
     /// J_E one Newton step after the seams are let go; see [`Fit::energy_of_free_seams`].
     fn energy_of_free_seams(&mut self, targets: &Targets) -> Result<Option<f64>, FitError> {
-        let Problem { prepared, springs, input, .. } = &self.problem;
-        if prepared.sewn.cliques().is_empty() {
+        let (springs, spacing) = (self.problem.springs, self.problem.input.parameters.spacing);
+        let Solver { triangles, sewn, .. } = self.problem.solver;
+        if sewn.cliques().is_empty() {
             return Ok(None);
         }
+        self.forget();
         self.ask()?;
         let wanted = self.wanted(targets);
-        let turning =
-            prepared.triangles.turning(&self.coordinates, springs, &wanted, input.parameters.spacing);
-        let force = prepared.triangles.gradient(&self.coordinates, springs, &wanted, &turning);
-        let downhill: Vec<f64> = force.iter().map(|f| -f).collect();
-        let _ = downhill;
+        let here = triangles.energy(&self.coordinates, &springs, &wanted, &[]);
+        let turning = triangles.turning(&self.coordinates, &springs, &wanted, spacing);
+        let at = Place { coordinates: &self.coordinates, wanted: &wanted, turning: &turning };
+        let mut forces = triangles.gradient(&self.coordinates, &springs, &wanted, &turning);
+        forces.iter_mut().for_each(|f| *f = -*f);
+        for share in [1.0, 0.0] {
+            let Some(model) = self.problem.model(&at, share, false, &mut self.room)? else {
+                continue;
+            };
+            let motion = self.problem.answer(&model, &self.coordinates, &forces);
+            let length = triangles.longest_step(&self.coordinates, &motion);
+            let there: Vec<DVec2> =
+                self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + length * d).collect();
+            return Ok(Some(here.min(triangles.energy(&there, &springs, &wanted, &[]))));
+        }
         Ok(None)
     }
 }

@@ -146,15 +146,13 @@ impl Sewn {
             for k in 0..run.len() {
                 let middle = 0.5 * (along[k] + along[k + 1]);
                 let from = along[..=k].partition_point(|&s| s < middle - 0.5 * COURSE_MM).min(k);
-                let to = along[k + 1..]
-                    .partition_point(|&s| s <= middle + 0.5 * COURSE_MM)
-                    .max(1)
-                    + k;
+                let to =
+                    along[k + 1..].partition_point(|&s| s <= middle + 0.5 * COURSE_MM).max(1) + k;
                 let chord = coordinates[side(&run[to - 1])[1]] - coordinates[side(&run[from])[0]];
                 let own = side(&run[k]);
-                directions[at + k] = chord
-                    .try_normalize()
-                    .unwrap_or_else(|| (coordinates[own[1]] - coordinates[own[0]]).normalize_or_zero());
+                directions[at + k] = chord.try_normalize().unwrap_or_else(|| {
+                    (coordinates[own[1]] - coordinates[own[0]]).normalize_or_zero()
+                });
             }
             at += run.len();
         }

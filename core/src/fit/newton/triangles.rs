@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::element::{
-    Element, Gradients, Springs, Stretches, energy, expand, force_at_corners, slope, turn,
+    Element, Gradients, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
 };
 use super::straight::Smoothing;
 use crate::fit::Misfit;
@@ -228,7 +228,7 @@ impl Triangles {
             .collect()
     }
 
-    /// Every triangle's part of gradient and Hessian, into `elements`.
+    /// Every triangle's part of the Hessian, into `elements`.
     pub fn elements(
         &self,
         coordinates: &[DVec2],
@@ -244,11 +244,11 @@ impl Triangles {
             .zip(turning)
             .map(|(worn, turning)| {
                 let (g, y) = Self::gradients(worn, coordinates);
-                let mut expansion = expand(&g, springs, &wanted.at(y), share);
+                let mut bend = bend(&g, springs, &wanted.at(y), share);
                 let [warp, weft] = turning.stiffness;
-                expansion.turn(&g, true, turning.warp, warp, FELT);
-                expansion.turn(&g, false, turning.weft, weft, FELT);
-                expansion.at_corners(&worn.hats, worn.area)
+                bend.turn(true, turning.warp, FELT * warp);
+                bend.turn(false, turning.weft, FELT * weft);
+                bend.at_corners(&worn.hats, worn.area)
             })
             .collect_into_vec(elements);
     }
@@ -281,11 +281,7 @@ impl Triangles {
     }
 
     /// Forces at corners summed at the vertices, in order.
-    fn gather<'a>(
-        &self,
-        vertices: usize,
-        forces: impl Iterator<Item = &'a [f64; 6]>,
-    ) -> Vec<f64> {
+    fn gather<'a>(&self, vertices: usize, forces: impl Iterator<Item = &'a [f64; 6]>) -> Vec<f64> {
         let mut sums = vec![0.0; 2 * vertices];
         for (worn, force) in self.0.iter().zip(forces) {
             for (k, v) in worn.corners.iter().enumerate() {
