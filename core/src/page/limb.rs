@@ -145,6 +145,12 @@ impl<'a> Limb<'a> {
         tag("div").class("views").children(views)
     }
 
+    /// One of the four views (0: from the front, then its right, back and left) by itself.
+    pub(super) fn view(&self, number: usize, quantity: &Quantity) -> svg::Document {
+        let view = &self.views[number];
+        self.drawing(view, quantity, self.picture(view, quantity), true)
+    }
+
     fn picture(&self, view: &View, quantity: &Quantity) -> String {
         let camera = &view.camera;
         let light = Light {
