@@ -48,13 +48,13 @@ pub fn paper_html(settings: &Settings, outcomes: &[Outcome], claims: &[Claim]) -
             "The course of the four, anisotropic fabric",
             &names("anisotropic"),
         ))
-        .child(page.limb(11, "knee", "A knee brace", &[("front", 0), ("back", 2)]))
+        .child(page.limb(11, "knee", "A knee brace"))
         .child(page.courses(
             12,
             "The course of the knee brace",
             &["knee-free", "knee-pressed"].map(str::to_owned),
         ))
-        .child(page.limb(13, "wrist", "A wrist brace", &[("front", 0)]))
+        .child(page.limb(13, "wrist", "A wrist brace"))
         .child(page.courses(
             14,
             "The course of the wrist brace",
@@ -115,6 +115,26 @@ fn on_one_scale(outcomes: &[&Outcome]) -> (Quantity, Vec<Quantity>) {
         })
         .collect();
     (together, each)
+}
+
+/// The heading over a figure's first drawings.
+const START: &str = "The initial woven fitting, by the intrinsic parameterization at true scale";
+
+/// Numbers of two of the limb's views.
+const FRONT: usize = 0;
+const BACK: usize = 2;
+
+fn heading_of(figure: u8, title: &str) -> Tag {
+    tag("h2").text(format!("Fig. {figure}: {title}"))
+}
+
+fn figure(drawing: svg::Document, words: &str) -> Tag {
+    tag("figure").child(drawing).child(tag("figcaption").text(words))
+}
+
+/// What is not to be torn apart by the end of a sheet.
+fn panel(drawings: Vec<Tag>) -> Tag {
+    tag("div").class("panel").children(drawings)
 }
 
 struct Page<'a> {
@@ -199,38 +219,53 @@ impl<'a> Page<'a> {
     }
 
     fn section(figure: u8, title: &str) -> Tag {
-        tag("section").child(tag("h2").text(format!("Fig. {figure}: {title}")))
+        tag("section").child(heading_of(figure, title))
     }
 
-    /// Limbs over patterns, a column an example, with the legend under them.
-    fn panels(outcomes: &[&Outcome], views: &[(&str, usize)], class: &str) -> Vec<Tag> {
+    /// A section whose heading stays with its first drawings when it is printed.
+    fn figures(figure: u8, title: &str, words: Tag, under: &str, drawings: Vec<Tag>) -> Tag {
+        let mut first = tag("div").class("panel").child(heading_of(figure, title)).child(words);
+        if !under.is_empty() {
+            first = first.child(tag("h3").text(under));
+        }
+        tag("section").child(first.children(drawings))
+    }
+
+    /// Limbs from the front over patterns, a column an example, with the legend under them.
+    fn columns(outcomes: &[&Outcome]) -> Vec<Tag> {
         let (together, each) = on_one_scale(outcomes);
         let inputs: Vec<PageInput<'_>> = outcomes.iter().map(|outcome| input(outcome)).collect();
-        let limbs: Vec<Limb<'_>> = inputs.iter().map(Limb::new).collect();
         let sheets = Sheets::of(outcomes);
-        let row = |figures: Vec<Tag>| tag("div").class(class).children(figures);
-        let figure = |drawing: svg::Document, words: String| {
-            tag("figure").child(drawing).child(tag("figcaption").text(words))
-        };
-        let mut rows: Vec<Tag> = views
-            .iter()
-            .map(|&(from, number)| {
-                let columns = limbs.iter().zip(&each).zip(outcomes);
-                row(columns
-                    .map(|((limb, quantity), outcome)| {
-                        let words = format!("{}, from the {from}", outcome.example.title);
-                        figure(limb.view(number, quantity), words)
-                    })
-                    .collect())
-            })
-            .collect();
-        let patterns = outcomes.iter().zip(&each).map(|(outcome, quantity)| {
-            let words = format!("{}, the pattern", outcome.example.title);
-            figure(sheets.drawing(outcome, quantity), words)
+        let columns = || outcomes.iter().zip(&each);
+        let limbs = columns().zip(&inputs).map(|((outcome, quantity), input)| {
+            let words = format!("{}, from the front", outcome.example.title);
+            figure(Limb::new(input).view(FRONT, quantity), &words)
         });
-        rows.push(row(patterns.collect()));
-        rows.push(together.legend());
-        vec![tag("div").class("panel").children(rows)]
+        let patterns = columns().map(|(outcome, quantity)| {
+            let words = format!("{}, the pattern", outcome.example.title);
+            figure(sheets.drawing(outcome, quantity), &words)
+        });
+        vec![
+            tag("div").class("four").children(limbs),
+            tag("div").class("four").children(patterns),
+            together.legend(),
+        ]
+    }
+
+    /// An example a row: the limb from the front and the back, and the pattern; with the legend.
+    fn rows(outcomes: &[&Outcome]) -> Vec<Tag> {
+        let (together, each) = on_one_scale(outcomes);
+        let sheets = Sheets::of(outcomes);
+        let rows = outcomes.iter().zip(&each).map(|(outcome, quantity)| {
+            let input = input(outcome);
+            let limb = Limb::new(&input);
+            tag("div").class("three").children([
+                figure(limb.view(FRONT, quantity), outcome.example.title),
+                figure(limb.view(BACK, quantity), "from the back"),
+                figure(sheets.drawing(outcome, quantity), "the pattern"),
+            ])
+        });
+        rows.chain([together.legend()]).collect()
     }
 
     fn elbow(&self, figure: u8, fabric: &str) -> Tag {
@@ -240,14 +275,17 @@ impl<'a> Page<'a> {
             "An elbow brace for four configurations, {fabric} fabric {} / {} / {}",
             stiffness.warp, stiffness.weft, stiffness.diagonal
         );
-        let mut all = Self::section(figure, &title).child(note(
+        let words = note(
             "Circles: wanted pressures in kPa, large ones where the paper has arrows. Up is near \
              the body, warp runs across, and a millimetre is as long in every pattern.",
-        ));
-        if figure == 2 {
-            all = all.children(self.start());
-        }
-        all = all.children(Self::panels(&outcomes, &[("front", 0)], "four"));
+        );
+        let mut all = if figure == 2 {
+            let start = Self::rows(&[self.of("elbow-start")]);
+            Self::figures(figure, &title, words, START, start)
+                .child(panel(Self::columns(&outcomes)))
+        } else {
+            Self::figures(figure, &title, words, "", Self::columns(&outcomes))
+        };
         all = all.children(self.sentences(figure));
         if figure == 9 {
             all = all.child(note(
@@ -272,25 +310,6 @@ impl<'a> Page<'a> {
             format!("{} to {} mm", shown(low, 1), shown(high, 1))
         };
         format!(" ({} there, {} here.)", range("isotropic"), range("anisotropic"))
-    }
-
-    /// Fig. 2(a): what the diffusion starts from.
-    fn start(&self) -> Vec<Tag> {
-        let start = self.of("elbow-start");
-        let (quantity, each) = on_one_scale(&[start]);
-        let input = input(start);
-        let limb = Limb::new(&input);
-        let figure = |drawing: svg::Document, words: &str| {
-            tag("figure").child(drawing).child(tag("figcaption").text(words))
-        };
-        let row = tag("div").class("three").children([
-            figure(limb.view(0, &each[0]), "the limb, from the front"),
-            figure(limb.view(2, &each[0]), "from the back"),
-            figure(Sheets::of(&[start]).drawing(start, &each[0]), "the initial pattern"),
-        ]);
-        let words = "(a) The limb, and the initial pattern by the intrinsic parameterization, at true scale";
-        let panel = tag("div").class("panel").child(tag("h3").text(words)).child(row);
-        vec![panel.child(quantity.legend()), tag("h3").text("(b) The four configurations")]
     }
 
     fn strain_functions(&self) -> Tag {
@@ -348,22 +367,17 @@ impl<'a> Page<'a> {
         all.children(self.sentences(figure))
     }
 
-    fn limb(&self, figure: u8, limb: &str, title: &str, views: &[(&str, usize)]) -> Tag {
-        let outcomes: Vec<&Outcome> = ["start", "free", "pressed"]
-            .iter()
-            .map(|end| self.of(&format!("{limb}-{end}")))
-            .collect();
-        let fabric = &outcomes[0].flattening.report.fabric;
+    fn limb(&self, figure: u8, limb: &str, title: &str) -> Tag {
+        let [start, free, pressed] =
+            ["start", "free", "pressed"].map(|end| self.of(&format!("{limb}-{end}")));
+        let fabric = &start.flattening.report.fabric;
         let title =
             format!("{title}, fabric {} / {} / {}", fabric.warp, fabric.weft, fabric.diagonal);
-        Self::section(figure, &title)
-            .child(note(
-                "Colours: warp strain. In (a) it is that of the initial woven fitting, laid by the \
-                 parameterization at true scale. Circles: wanted pressures in kPa.",
-            ))
-            .children(Self::panels(&outcomes, views, "three"))
+        let words = note("Circles: wanted pressures in kPa. (b) and (c) share colours and scale.");
+        Self::figures(figure, &title, words, START, Self::rows(&[start]))
+            .child(panel(Self::rows(&[free, pressed])))
             .children(self.sentences(figure))
-            .child(Self::pressures(&outcomes))
+            .child(Self::pressures(&[pressed]))
     }
 
     /// Wanted and computed at every point of these examples.
