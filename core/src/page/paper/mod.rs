@@ -401,7 +401,7 @@ impl<'a> Page<'a> {
                     .child(cell(
                         p.warp_strain.map_or("\u{2013}".to_owned(), |s| shown(100.0 * s, 1)),
                     ))
-                    .child(cell(shown(p.mean_curvature_per_m, 1)));
+                    .child(cell(shown(p.mean_curvature_per_m, 1)).class("wide"));
                 let why = p.reason.as_ref().map(|reason| {
                     let words = format!("Missed: {}.", reason.text);
                     tag("tr").class("why").child(tag("td").with("colspan", "5").text(words))
@@ -409,16 +409,12 @@ impl<'a> Page<'a> {
                 [Some(row), why].into_iter().flatten()
             })
         });
-        let top = [
-            "where",
-            "wanted, kPa",
-            "computed (not measured), kPa",
-            "strain of the thread, %",
-            "mean curvature, per m",
-        ];
+        let top =
+            ["where", "wanted, kPa", "computed (not measured), kPa", "strain of the thread, %"];
+        let curvature = head("mean curvature, per m").class("wide");
         tag("table")
             .class("points")
-            .child(tag("thead").child(tag("tr").children(top.map(head))))
+            .child(tag("thead").child(tag("tr").children(top.map(head)).child(curvature)))
             .child(tag("tbody").children(rows))
     }
 
@@ -426,6 +422,7 @@ impl<'a> Page<'a> {
     fn runs(&self) -> Tag {
         let head = |words: &str| tag("th").with("scope", "col").text(words);
         let cell = |words: String| tag("td").text(words);
+        let wide = |words: String| cell(words).class("wide");
         let rows =
             self.outcomes.iter().filter(|o| o.example.extent != Extent::Start).map(|outcome| {
                 let (fit, pattern) =
@@ -436,7 +433,7 @@ impl<'a> Page<'a> {
                 let fine = course::finest(fit);
                 tag("tr")
                     .child(tag("td").class("words").text(outcome.example.name))
-                    .child(cell(fit.nodes.to_string()))
+                    .child(wide(fit.nodes.to_string()))
                     .child(cell(fit.iterations.to_string()))
                     .child(cell(if fit.converged { "yes" } else { "no" }.to_owned()))
                     .child(cell(shown(rms(fine.clone().next()), 1)))
@@ -447,9 +444,10 @@ impl<'a> Page<'a> {
                         shown(pattern.height_mm, 0)
                     )))
             });
-        let top = ["nodes", "steps", "converged", "first, %", "last, %", "pattern, mm"];
-        let top = std::iter::once(tag("th").with("scope", "col").class("words").text("example"))
-            .chain(top.map(head));
+        let top = [head("example").class("words"), head("nodes").class("wide")]
+            .into_iter()
+            .chain(["steps", "converged", "first, %", "last, %"].map(head))
+            .chain([head("pattern, mm").class("wide")]);
         tag("section")
             .class("keep")
             .child(tag("h2").text("Every run"))
