@@ -436,7 +436,7 @@ impl<'a> Page<'a> {
                     .child(wide(fit.nodes.to_string()))
                     .child(cell(fit.iterations.to_string()))
                     .child(cell(if fit.converged { "yes" } else { "no" }.to_owned()))
-                    .child(cell(shown(rms(fine.clone().next()), 1)))
+                    .child(wide(shown(rms(fine.clone().next()), 1)))
                     .child(cell(shown(rms(fine.last()), 1)))
                     .child(cell(format!(
                         "{} \u{d7} {}",
@@ -446,7 +446,8 @@ impl<'a> Page<'a> {
             });
         let top = [head("example").class("words"), head("nodes").class("wide")]
             .into_iter()
-            .chain(["steps", "converged", "first, %", "last, %"].map(head))
+            .chain(["steps", "converged"].map(head))
+            .chain([head("first, %").class("wide"), head("last, %")])
             .chain([head("pattern, mm").class("wide")]);
         tag("section")
             .class("keep")

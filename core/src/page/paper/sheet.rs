@@ -90,7 +90,8 @@ impl Sheets {
         }
         for (k, ((p, _), wanted)) in points.iter().zip(&flattening.report.pressures).enumerate() {
             let words = format!("{}: {}", k + 1, shown(wanted.asked_kpa, 2));
-            let (at, anchor) = labels.place(place(*p), 8.0, SIZE, &words);
+            // Bold letters are wider.
+            let (at, anchor) = labels.place(place(*p), 8.0, 1.12 * SIZE, &words);
             all = all.add(rimmed(at, anchor, SIZE, &words).set("font-weight", "700"));
         }
         self.scale_bar(all)
