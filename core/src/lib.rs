@@ -10,6 +10,7 @@ mod check;
 mod denoise;
 pub mod design;
 mod error;
+pub mod examples;
 pub mod export;
 pub mod field;
 pub mod fit;

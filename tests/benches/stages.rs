@@ -9,11 +9,12 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::DVec2;
-use wovenfit_core::design::Design;
+use wovenfit_core::design::{Design, Limits};
 use wovenfit_core::export::{flat_obj, pattern_svg, worn_obj};
 use wovenfit_core::fit::{step, step_length};
 use wovenfit_core::geometry::{Curvature, measure};
 use wovenfit_core::mapping::Mapping;
+use wovenfit_core::page::{PageInput, report_html};
 use wovenfit_core::parameterize::initial;
 use wovenfit_core::parameters::Parameters;
 use wovenfit_core::progress::Silent;
@@ -109,5 +110,29 @@ fn stages(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, diffusion_step, stages);
+/// The page must not take longer than the fit: two figures of one run that are to be compared. The fit
+/// is what the command line calls so, the whole flow from the scan to the pattern.
+fn page_against_fit(criterion: &mut Criterion) {
+    let elbow = elbow();
+    let parameters = Parameters::default();
+    let flow = || wovenfit_core::flatten(&elbow.mesh, &elbow.design, &parameters, &Silent);
+    let done = flow().expect("the elbow can be flattened");
+    let page = PageInput {
+        disk: &done.disk,
+        coordinates: &done.coordinates,
+        drawing: &done.drawing,
+        report: &done.report,
+        girths: &done.girths,
+        warp_strain: &done.field.warp_strain,
+        pressure_kpa: Some(&done.field.pressure_kpa),
+        limit_kpa: Limits::WARN_KPA,
+    };
+    let mut group = criterion.benchmark_group("the page against the fit at 20k triangles");
+    group.sample_size(10);
+    group.bench_function("fit", |b| b.iter(flow));
+    group.bench_function("page", |b| b.iter(|| report_html(black_box(&page))));
+    group.finish();
+}
+
+criterion_group!(benches, diffusion_step, stages, page_against_fit);
 criterion_main!(benches);

@@ -6,6 +6,7 @@ mod field;
 mod files;
 mod invariance;
 mod page;
+mod paper;
 mod parameters;
 mod reasons;
 mod samples;

@@ -12,13 +12,13 @@ use crate::{FAST, limb};
 /// Largest size of the page, in bytes: it is sent by mail.
 const MOST_BYTES: usize = 1_500_000;
 
-fn parse(page: &str) -> Document<'_> {
+pub(crate) fn parse(page: &str) -> Document<'_> {
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     Document::parse_with_options(page, options).expect("the page is well-formed")
 }
 
 /// All text with single spaces.
-fn words(document: &Document<'_>) -> String {
+pub(crate) fn words(document: &Document<'_>) -> String {
     let body = document.descendants().find(|n| n.tag_name().name() == "body").expect("a body");
     let texts = body.descendants().filter(|n| n.is_text()).filter_map(|n| n.text());
     texts.flat_map(str::split_whitespace).collect::<Vec<_>>().join(" ")

@@ -93,6 +93,85 @@ fn a_scanners_noise_changes_pressures_and_strains_by_less_than_a_tenth() {
     }
 }
 
+/// Noise of 0.3 mm against the clean limb, with the program's own settings.
+///
+/// Pressures are held to a tenth: at the asked points, their mean and their 95th percentile. Two
+/// figures are not, for reasons:
+///
+/// - The largest is one vertex's, on the sharpest crest. Noise makes the program read curvature over
+///   a wider radius, which flattens crests, and it says so: what the noise itself does shows
+///   against the clean limb read over that radius. A single vertex is held to 15 %.
+/// - The strain at a point shows whether its curvature was misread, which the pressure does not:
+///   the fit asks for what gives the pressure with the curvature that it read. It is held to a
+///   tenth, or to three times the uncertainty of curvature that the report states, whichever is
+///   more: the knee's first point is off by a sixth, at some 2.5 times.
+fn noise_of_a_scanner_stays_within_a_tenth(limb: &str) {
+    let flattened = |noise: &str, radius: Option<f64>| {
+        let bench = Bench::new();
+        let (surface, design) = sample(&bench, limb, &["--noise", noise]);
+        // Wider threads keep this short; noise is that of 20,000 triangles.
+        let mut options = vec!["--quiet".to_owned(), "--spacing=8".to_owned()];
+        options.extend(radius.map(|radius| format!("--curvature-radius={radius}")));
+        let options: Vec<&str> = options.iter().map(String::as_str).collect();
+        let _ = bench.flatten_file(&surface, &design, &options, &[]).succeeded();
+        let worn = bench.worn();
+        assert_eq!((worn.flipped(), worn.overlaps(), worn.wound_twice()), (0, 0, 0), "{limb}");
+        bench.report()
+    };
+    let (clean, noisy) = (flattened("0", None), flattened("0.3", None));
+    let change = |a: &Value, b: &Value| number(b) / number(a) - 1.0;
+
+    let warnings = noisy["warnings"].as_array().unwrap();
+    let warning = warnings.iter().find(|w| w["code"] == "noisy_scan").expect("noise is said");
+    let words = warning["message"].as_str().unwrap();
+    let (_, rest) = words.split_once("known to about ").expect("the uncertainty is said");
+    let per_m: f64 = rest.split(' ').next().unwrap().parse().unwrap();
+    let [before, after] = [&clean, &noisy].map(|report| report["pressures"].as_array().unwrap());
+    assert_eq!((before.len(), after.len()), (4, 4));
+    for (k, (a, b)) in before.iter().zip(after).enumerate() {
+        let point = format!("{limb}, point {}", k + 1);
+        let pressure = change(&a["got_kpa"], &b["got_kpa"]);
+        assert!(pressure.abs() < 0.1, "{point}: pressure {pressure:+.3}");
+        let strain = change(&a["warp_strain"], &b["warp_strain"]);
+        let bound = (3.0 * per_m / number(&a["warp_curvature_per_m"])).max(0.1);
+        assert!(strain.abs() < bound, "{point}: strain {strain:+.3}, bound {bound:.3}");
+    }
+    for key in ["mean_kpa", "p95_kpa"] {
+        let field = change(&clean["field"][key], &noisy["field"][key]);
+        assert!(field.abs() < 0.1, "{limb}: {key} {field:+.3}");
+    }
+    let radius = number(&noisy["curvature_radius_mm"]);
+    assert!(radius > number(&clean["curvature_radius_mm"]));
+    let alike = flattened("0", Some(radius));
+    let most = change(&alike["field"]["max_kpa"], &noisy["field"]["max_kpa"]);
+    assert!(most.abs() < 0.15, "{limb}: the largest pressure {most:+.3}");
+}
+
+#[test]
+fn the_noisy_elbow_keeps_its_pressures() {
+    noise_of_a_scanner_stays_within_a_tenth("elbow");
+}
+
+#[test]
+fn the_noisy_knee_keeps_its_pressures() {
+    noise_of_a_scanner_stays_within_a_tenth("knee");
+}
+
+#[test]
+fn the_noisy_wrist_keeps_its_pressures() {
+    noise_of_a_scanner_stays_within_a_tenth("wrist");
+}
+
+#[test]
+fn the_noisy_ankle_keeps_its_pressures() {
+    noise_of_a_scanner_stays_within_a_tenth("ankle");
+}
+
+#[test]
+fn the_noisy_forearm_keeps_its_pressures() {
+    noise_of_a_scanner_stays_within_a_tenth("forearm");
+}
+
 #[test]
 fn the_thumb_has_an_opening_if_asked_for() {
     for (options, loops) in [(&[][..], 2), (&["--opening"], 3)] {

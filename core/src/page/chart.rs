@@ -12,15 +12,15 @@ use super::html::shown;
 use super::scale::round_up;
 
 /// Size of a chart, in units of its drawing.
-const SIZE: DVec2 = DVec2::new(560.0, 340.0);
+pub(super) const SIZE: DVec2 = DVec2::new(560.0, 340.0);
 /// Upper left and lower right corner of its field.
-const FIELD: [DVec2; 2] = [DVec2::new(60.0, 52.0), DVec2::new(544.0, 288.0)];
+pub(super) const FIELD: [DVec2; 2] = [DVec2::new(60.0, 52.0), DVec2::new(544.0, 288.0)];
 /// Size of lettering.
-const LETTER: f64 = 15.0;
+pub(super) const LETTER: f64 = 15.0;
 
 /// A range along an axis and what it is called.
-struct Axis<'a> {
-    low: f64,
+pub(super) struct Axis<'a> {
+    pub(super) low: f64,
     high: f64,
     title: &'a str,
     /// Where there are ticks, with their lettering.
@@ -29,7 +29,7 @@ struct Axis<'a> {
 
 impl<'a> Axis<'a> {
     /// From `low` to `high` with ticks at round values.
-    fn linear(low: f64, high: f64, title: &'a str) -> Self {
+    pub(super) fn linear(low: f64, high: f64, title: &'a str) -> Self {
         let high = if high > low { high } else { low + 1.0 };
         let step = round_up((high - low) / 6.0);
         let first = (low / step - 1e-9).ceil() as i64;
@@ -43,7 +43,7 @@ impl<'a> Axis<'a> {
     }
 
     /// Over these positive values, in powers of ten; places are logarithms.
-    fn logarithmic(values: impl Iterator<Item = f64>, title: &'a str) -> Self {
+    pub(super) fn logarithmic(values: impl Iterator<Item = f64>, title: &'a str) -> Self {
         let (low, high) = values
             .map(f64::log10)
             .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)));
@@ -69,13 +69,14 @@ impl<'a> Axis<'a> {
 }
 
 /// A chart's field with its axes.
-struct Field<'a> {
-    x: Axis<'a>,
-    y: Axis<'a>,
+pub(super) struct Field<'a> {
+    pub(super) x: Axis<'a>,
+    pub(super) y: Axis<'a>,
 }
 
 impl Field<'_> {
-    fn place(&self, x: f64, y: f64) -> DVec2 {
+    /// Where a value is in the drawing.
+    pub(super) fn place(&self, x: f64, y: f64) -> DVec2 {
         let [low, high] = FIELD;
         DVec2::new(
             low.x + self.x.part(x) * (high.x - low.x),
@@ -83,7 +84,8 @@ impl Field<'_> {
         )
     }
 
-    fn axes(&self, mut all: Document) -> Document {
+    /// Both axes with their ticks and titles.
+    pub(super) fn axes(&self, mut all: Document) -> Document {
         let [low, high] = FIELD;
         for (value, words) in &self.y.ticks {
             let y = self.place(self.x.low, *value).y;

@@ -148,6 +148,12 @@ impl<'a> Limb<'a> {
         tag("div").class("views").children(views)
     }
 
+    /// One of the four views (0: from the front, then its right, back and left) by itself.
+    pub(super) fn view(&self, number: usize, quantity: &Quantity) -> svg::Document {
+        let view = &self.views[number];
+        self.drawing(view, quantity, self.picture(view, quantity), true)
+    }
+
     fn picture(&self, view: &View, quantity: &Quantity) -> String {
         let (shades, pixel) = (Some(&view.shades), 1.0 / view.camera.scale);
         data_address(self.input.disk, &view.raster, &quantity.field(), shades, pixel)

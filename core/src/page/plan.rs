@@ -155,7 +155,8 @@ impl<'a> Plan<'a> {
         }
         for (k, (place, label)) in points.iter().enumerate().filter(|_| labelled) {
             let words = format!("{}: {label}", k + 1);
-            let (at, anchor) = labels.place(self.frame.place(*place), 8.0, SIZE, &words);
+            // Bold letters are wider.
+            let (at, anchor) = labels.place(self.frame.place(*place), 8.0, 1.12 * SIZE, &words);
             all = all.add(rimmed(at, anchor, SIZE, &words).set("font-weight", "700"));
         }
         all

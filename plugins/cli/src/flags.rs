@@ -10,13 +10,25 @@ const HEADING: &str = "Parameters of the method (the defaults are meant to be le
 
 /// The command with a flag for every parameter that `wanted` accepts, by its name in the table.
 pub fn add(command: Command, wanted: impl Fn(&str) -> bool) -> Command {
+    add_to(command, &Parameters::default(), wanted)
+}
+
+/// The same with other defaults than the table's.
+pub fn add_to(command: Command, defaults: &Parameters, wanted: impl Fn(&str) -> bool) -> Command {
     let parameters = PARAMETERS.iter().filter(|parameter| wanted(parameter.name));
-    command.args(parameters.map(flag))
+    command.args(parameters.map(|parameter| flag(parameter, defaults)))
 }
 
 /// The parameters that the flags give; the rest has its default.
 pub fn parameters(matches: &ArgMatches) -> Result<Parameters, Failure> {
-    let mut parameters = Parameters::default();
+    parameters_over(Parameters::default(), matches)
+}
+
+/// The same with other defaults than the table's.
+pub fn parameters_over(
+    mut parameters: Parameters,
+    matches: &ArgMatches,
+) -> Result<Parameters, Failure> {
     for parameter in PARAMETERS.iter() {
         if let Ok(Some(value)) = matches.try_get_one::<String>(parameter.name) {
             parameters.set(parameter.name, value).map_err(|error| Failure::of(&error))?;
@@ -25,8 +37,8 @@ pub fn parameters(matches: &ArgMatches) -> Result<Parameters, Failure> {
     Ok(parameters)
 }
 
-fn flag(parameter: &'static Parameter) -> Arg {
-    let default = parameter.default_text();
+fn flag(parameter: &'static Parameter, defaults: &Parameters) -> Arg {
+    let default = defaults.get(parameter.name).unwrap_or_default();
     let summary = parameter.summary.trim_end_matches('.');
     let arg = Arg::new(parameter.name)
         .long(parameter.name.replace('_', "-"))

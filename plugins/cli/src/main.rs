@@ -13,6 +13,7 @@ mod flags;
 mod flatten;
 mod input;
 mod output;
+mod paper;
 mod progress;
 mod sample;
 mod schema;
@@ -35,6 +36,8 @@ Examples:
       Make the pattern: results/pattern.svg is what you print and cut.
   wovenfit sample elbow --triangles 20000 --out elbow.obj
       Write a sample limb, and beside it elbow.design.json to start a design from.
+  wovenfit paper --out examples
+      The examples of the paper by its own method, on one page.
   wovenfit schema
       What can stand in a design file, as a JSON schema.
 
@@ -53,6 +56,7 @@ fn command() -> Command {
         .subcommand(check::command())
         .subcommand(flatten::command())
         .subcommand(sample::command())
+        .subcommand(paper::command())
         .subcommand(schema::command())
 }
 
@@ -63,6 +67,7 @@ fn main() -> ExitCode {
         Some((check::NAME, matches)) => check::run(matches),
         Some((flatten::NAME, matches)) => flatten::run(matches),
         Some((sample::NAME, matches)) => sample::run(matches),
+        Some((paper::NAME, matches)) => paper::run(matches),
         Some((schema::NAME, _)) => schema::run(),
         other => unreachable!("a subcommand is required and all are known: {other:?}"),
     })
