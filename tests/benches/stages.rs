@@ -11,7 +11,7 @@ use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_m
 use glam::DVec2;
 use wovenfit_core::design::{Design, Limits};
 use wovenfit_core::export::{flat_obj, pattern_svg, worn_obj};
-use wovenfit_core::fit::{step, step_length};
+use wovenfit_core::fit::diffusion::{step, step_length};
 use wovenfit_core::geometry::{Curvature, measure};
 use wovenfit_core::mapping::Mapping;
 use wovenfit_core::page::{PageInput, report_html};
@@ -100,8 +100,8 @@ fn stages(criterion: &mut Criterion) {
     group.bench_function("files", |b| {
         b.iter(|| {
             (
-                worn_obj(&done.disk, &done.coordinates),
-                flat_obj(&done.disk, &done.coordinates),
+                worn_obj(done.disk(), &done.coordinates),
+                flat_obj(done.disk(), &done.coordinates),
                 pattern_svg(&done.drawing),
                 done.report.to_json(),
             )
@@ -118,7 +118,7 @@ fn page_against_fit(criterion: &mut Criterion) {
     let flow = || wovenfit_core::flatten(&elbow.mesh, &elbow.design, &parameters, &Silent);
     let done = flow().expect("the elbow can be flattened");
     let page = PageInput {
-        disk: &done.disk,
+        disk: done.disk(),
         coordinates: &done.coordinates,
         drawing: &done.drawing,
         report: &done.report,

@@ -82,11 +82,11 @@ impl<'a> All<'a> {
     /// same limb.
     fn strains(self, name: &str, in_: &str) -> Vec<f64> {
         let (from, to) = (&self.of(name).flattening, &self.of(in_).flattening);
-        let locator = Locator::new(&to.disk);
+        let locator = Locator::new(to.disk());
         let threads = Threads::of(to);
         let strain = |p: &PressureReport| {
             let (point, _) = locator.closest(p.at.into())?;
-            Some(threads.at(point.interpolate(&to.disk, &to.coordinates).y)?.strain)
+            Some(threads.at(point.interpolate(to.disk(), &to.coordinates).y)?.strain)
         };
         from.report.pressures.iter().map(|p| strain(p).unwrap_or(f64::NAN)).collect()
     }

@@ -36,7 +36,7 @@ impl<'a> Threads<'a> {
     /// Of a finished pattern.
     #[must_use]
     pub fn of(flattening: &'a Flattening) -> Self {
-        let Flattening { disk, coordinates, .. } = flattening;
+        let (disk, coordinates) = (flattening.disk(), &flattening.coordinates);
         let top = coordinates.iter().map(|p| p.y).fold(0.0, f64::max);
         Self { disk, coordinates, top }
     }

@@ -114,6 +114,7 @@ fn report() -> Report {
             converged: true,
             stopped_by: "plateau",
             energy: 12.5,
+            energy_of_free_seams: None,
             energy_unit: ENERGY_UNIT,
             e_ssd: 0.02,
             springs: 200,

@@ -102,7 +102,7 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         ("paper.json".to_owned(), examples_json(&settings, &outcomes, &claims).into_bytes()),
     ];
     files.extend(outcomes.iter().map(|outcome| {
-        let worn = worn_obj(&outcome.flattening.disk, &outcome.flattening.coordinates);
+        let worn = worn_obj(outcome.flattening.disk(), &outcome.flattening.coordinates);
         (format!("{}.worn.obj", outcome.example.name), worn.into_bytes())
     }));
     output::write_together(out, &files)?;

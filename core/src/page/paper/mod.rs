@@ -88,7 +88,7 @@ fn names(fabric: &str) -> [String; 4] {
 fn input(outcome: &Outcome) -> PageInput<'_> {
     let flattening = &outcome.flattening;
     PageInput {
-        disk: &flattening.disk,
+        disk: flattening.disk(),
         coordinates: &flattening.coordinates,
         drawing: &flattening.drawing,
         report: &flattening.report,
@@ -102,7 +102,7 @@ fn input(outcome: &Outcome) -> PageInput<'_> {
 /// Warp strain of several outcomes in the same bands; first that of all together, for the legend.
 fn on_one_scale(outcomes: &[&Outcome]) -> (Quantity, Vec<Quantity>) {
     let areas: Vec<Vec<f64>> =
-        outcomes.iter().map(|outcome| vertex_areas(&outcome.flattening.disk)).collect();
+        outcomes.iter().map(|outcome| vertex_areas(outcome.flattening.disk())).collect();
     let strain = |outcome: &Outcome| outcome.flattening.field.warp_strain.clone();
     let all: Vec<f64> = outcomes.iter().flat_map(|outcome| strain(outcome)).collect();
     let together = Quantity::strain(&all, &areas.concat());

@@ -70,9 +70,9 @@ impl Sheets {
             size: [pixels.x as usize, pixels.y as usize],
         };
         let flat: Vec<DVec3> = flattening.coordinates.iter().map(|p| p.extend(0.0)).collect();
-        let raster = Raster::new(&flattening.disk, &flat, &camera);
+        let raster = Raster::new(flattening.disk(), &flat, &camera);
         let pixel = 1.0 / camera.scale;
-        let address = data_address(&flattening.disk, &raster, &quantity.field(), None, pixel);
+        let address = data_address(flattening.disk(), &raster, &quantity.field(), None, pixel);
         let size = pixels / DENSITY;
         let words = format!("Pattern of {}, coloured by warp strain", outcome.example.title);
         let outline = flattening.drawing.outline.iter().filter(|points| !points.is_empty());
