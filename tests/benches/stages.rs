@@ -8,19 +8,21 @@
 use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use glam::DVec2;
-use wovenfit_core::design::{Design, Limits};
-use wovenfit_core::export::{flat_obj, pattern_svg, worn_obj};
+use glam::{DVec2, DVec3};
+use wovenfit_core::design::{Design, Limits, RegionPlane};
+use wovenfit_core::export::{flat_obj, pattern_svg, raw_obj, worn_obj};
+use wovenfit_core::field::{FieldInput, everywhere};
 use wovenfit_core::fit::diffusion::{step, step_length};
-use wovenfit_core::geometry::{Curvature, measure};
+use wovenfit_core::geometry::{Curvature, Locator, measure, noise};
 use wovenfit_core::mapping::Mapping;
 use wovenfit_core::page::{PageInput, report_html};
 use wovenfit_core::parameterize::initial;
 use wovenfit_core::parameters::Parameters;
+use wovenfit_core::pattern::{free_edges, pattern};
 use wovenfit_core::progress::Silent;
 use wovenfit_core::samples::sample;
-use wovenfit_core::seams::{CutSurface, Markers, open_to_disk, place};
-use wovenfit_core::surface::{RawMesh, Surface, SurfaceOptions, validate};
+use wovenfit_core::seams::{CutSurface, Markers, clip, open_to_disk, place};
+use wovenfit_core::surface::{Format, RawMesh, Surface, SurfaceOptions, read, validate};
 use wovenfit_core::units::LengthUnit;
 use wovenfit_core::weave::{RestLengths, WovenModel, lay};
 
@@ -80,9 +82,15 @@ fn stages(criterion: &mut Criterion) {
     let disk = &elbow.cut.disk;
     let mut group = criterion.benchmark_group("stage at 20k triangles");
     group.sample_size(10);
+    let file = raw_obj(&elbow.mesh, "elbow").into_bytes();
+    group.bench_function("reading", |b| b.iter(|| read(&file, Format::Obj)));
     group.bench_function("surface", |b| b.iter(|| validate(&elbow.mesh, &elbow.options)));
     group.bench_function("girths", |b| b.iter(|| measure(&elbow.surface, 20.0)));
+    group.bench_function("noise", |b| b.iter(|| noise(&elbow.surface)));
+    let across = [RegionPlane { point: DVec3::new(0.0, 0.0, 60.0), normal: DVec3::NEG_Z }];
+    group.bench_function("region", |b| b.iter(|| clip(&elbow.surface, &across)));
     group.bench_function("cut", |b| b.iter(|| open_to_disk(&elbow.surface, &[])));
+    group.bench_function("nearest triangles, prepared", |b| b.iter(|| Locator::new(disk)));
     group.bench_function("curvature at every vertex", |b| {
         b.iter(|| Curvature::new(&elbow.surface, &parameters).at_vertices());
     });
@@ -97,6 +105,33 @@ fn stages(criterion: &mut Criterion) {
     });
     let done = wovenfit_core::flatten(&elbow.mesh, &elbow.design, &parameters, &Silent)
         .expect("the elbow can be flattened");
+    // Without seams the scan is cut as the elbow here.
+    let (cut, coordinates) = (&elbow.cut, &done.coordinates);
+    assert_eq!(&cut.disk, done.disk());
+    group.bench_function("pattern", |b| b.iter(|| pattern(cut, coordinates)));
+    let free = free_edges(cut);
+    let worn = FieldInput {
+        scan: &elbow.surface,
+        disk,
+        coordinates,
+        seams: &cut.seams,
+        free_edges: &free,
+        fabric: &elbow.design.fabric,
+        pressure_model: elbow.design.pressure_model,
+        parameters: &parameters,
+    };
+    group.bench_function("field", |b| b.iter(|| everywhere(&worn)));
+    let page = PageInput {
+        disk: done.disk(),
+        coordinates,
+        drawing: &done.drawing,
+        report: &done.report,
+        girths: &done.girths,
+        warp_strain: &done.field.warp_strain,
+        pressure_kpa: Some(&done.field.pressure_kpa),
+        limit_kpa: Limits::WARN_KPA,
+    };
+    group.bench_function("page", |b| b.iter(|| report_html(&page)));
     group.bench_function("files", |b| {
         b.iter(|| {
             (

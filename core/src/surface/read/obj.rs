@@ -302,7 +302,6 @@ mod tests {
     fn the_short_way_and_the_long_way_read_the_same() {
         let long = |text: &str| read_text(&format!("# \\ no plain file\n{text}"));
         for text in [
-            SQUARE,
             "v 0 0 0\nv 1 0 0\nv 0 1e-3 0\nf 1//1 2//1 3//1\n",
             "f 1 2 3\nv 0 0 0\nv 1 0 0 0.5\nv 0 1 0\nf -1 -2 -3\n",
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\nf 1 2 3\n",
