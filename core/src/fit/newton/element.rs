@@ -82,7 +82,7 @@ impl Gradients {
 fn springs(k: &Springs, wanted: &Stretches) -> [(f64, f64, f64, [f64; 3]); 4] {
     let [l, l1, l2] = wanted.warp;
     let mu = wanted.weft;
-    let rho = l.hypot(mu);
+    let rho = (l * l + mu * mu).sqrt();
     let rho1 = l * l1 / rho;
     let rho2 = (l1 * l1 + l * l2 - rho1 * rho1) / rho;
     let diagonal = [rho, rho1, rho2];

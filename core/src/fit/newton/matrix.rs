@@ -265,20 +265,20 @@ pub struct Factored<'a> {
 }
 
 impl Factored<'_> {
-    /// The solutions for several right-hand sides, each in place.
-    pub fn solve<const N: usize>(&self, right: [&[f64]; N]) -> [Vec<f64>; N] {
+    /// Solutions for right-hand sides, together: reading the factor is what a solve costs.
+    pub fn solve(&self, right: &[&[f64]]) -> Vec<Vec<f64>> {
         let cholesky = &self.matrix.cholesky;
         let rows = 2 * self.matrix.vertices;
+        let count = right.len();
         let mut x = right.concat();
-        let mut memory = MemBuffer::new(cholesky.solve_in_place_scratch::<f64>(N, Par::Seq));
+        let mut memory = MemBuffer::new(cholesky.solve_in_place_scratch::<f64>(count, Par::Seq));
         LltRef::new(cholesky, &self.factor).solve_in_place_with_conj(
             Conj::No,
-            MatMut::from_column_major_slice_mut(&mut x, rows, N),
+            MatMut::from_column_major_slice_mut(&mut x, rows, count),
             Par::Seq,
             MemStack::new(&mut memory),
         );
-        let mut columns = x.chunks_exact(rows);
-        std::array::from_fn(|_| columns.next().map(<[f64]>::to_vec).unwrap_or_default())
+        x.chunks_exact(rows).map(<[f64]>::to_vec).collect()
     }
 
     /// The room of the factor, for the next one.
@@ -424,8 +424,8 @@ mod tests {
         let right: Vec<f64> =
             dense.iter().map(|row| row.iter().zip(&wanted).map(|(a, b)| a * b).sum()).collect();
         let factor = matrix.factorize(&values, Vec::new()).unwrap().ok().unwrap();
-        let [x] = factor.solve([&right]);
-        for (got, want) in x.iter().zip(&wanted) {
+        let x = factor.solve(&[&right]);
+        for (got, want) in x[0].iter().zip(&wanted) {
             assert!((got - want).abs() < 1e-10, "{got} {want}");
         }
         // Taking more away than there is leaves no positive matrix.

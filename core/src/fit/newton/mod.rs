@@ -43,6 +43,8 @@ pub struct Solver {
     triangles: Triangles,
     sewn: Sewn,
     matrix: Matrix,
+    /// Shares of the vertices in the worn area.
+    shares: Vec<f64>,
 }
 
 impl std::fmt::Debug for Solver {
@@ -59,7 +61,9 @@ impl Solver {
     pub fn new(disk: &Surface, seams: &[Seam], equal_seams: bool) -> Result<Self, FitError> {
         let sewn = Sewn::new(disk, if equal_seams { seams } else { &[] });
         let matrix = Matrix::new(disk, sewn.cliques())?;
-        Ok(Self { triangles: Triangles::new(disk), sewn, matrix })
+        let triangles = Triangles::new(disk);
+        let shares = triangles.worn_shares(disk.vertex_count());
+        Ok(Self { triangles, sewn, matrix, shares })
     }
 
     /// The fit from the initial parameterization, or from an earlier fit of the same surface.

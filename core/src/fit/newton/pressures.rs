@@ -198,12 +198,12 @@ impl<'a> Threads<'a> {
         Targets::new(threads, wishes, [low, high], fabric.max_strain, parameters.row_spacing)
     }
 
-    /// Corrects the targets. `answer` gives how the pattern moves when the present targets are replaced
-    /// by others. Whether any target changed.
+    /// Corrects the targets. `answers` gives how the pattern moves when the present targets are replaced
+    /// by each of others. Whether any target changed.
     pub fn correct(
         &mut self,
         coordinates: &[DVec2],
-        answer: impl Fn(&Targets) -> Vec<DVec2>,
+        answers: impl Fn(&[Targets]) -> Vec<Vec<DVec2>>,
     ) -> bool {
         let here = self.reached(coordinates);
         self.rounds += 1;
@@ -234,28 +234,34 @@ impl<'a> Threads<'a> {
         };
         let count = self.groups.len();
         if self.answers.is_none() {
-            let answers = (0..count).map(|i| {
-                let mut kpa = vec![0.0; annotations.len()];
-                let Some(asked) = self.asked[i] else { return kpa };
-                if count > MOST_SOLVED {
-                    for &k in &self.groups[i] {
-                        kpa[k] = own(k);
-                    }
-                    return kpa;
+            // Away from the nearer end of the range, where the function is held.
+            let step = |asked: f64| if asked > 0.5 * fabric.max_strain { -0.01 } else { 0.01 };
+            let solved: Vec<(usize, f64)> = (0..count)
+                .filter_map(|i| Some((i, step(self.asked[i]?))))
+                .filter(|_| count <= MOST_SOLVED)
+                .collect();
+            let others: Vec<Targets> = solved
+                .iter()
+                .map(|&(i, step)| {
+                    let mut other = self.asked.clone();
+                    other[i] = other[i].map(|asked| asked + step);
+                    self.with(coordinates, &other)
+                })
+                .collect();
+            let mut by_thread = vec![vec![0.0; annotations.len()]; count];
+            if count > MOST_SOLVED {
+                for (group, by_annotation) in self.groups.iter().zip(&mut by_thread) {
+                    group.iter().for_each(|&k| by_annotation[k] = own(k));
                 }
-                // Away from the nearer end of the range, where the function is held.
-                let step = if asked > 0.5 * fabric.max_strain { -0.01 } else { 0.01 };
-                let mut other = self.asked.clone();
-                other[i] = Some(asked + step);
-                let moved = answer(&self.with(coordinates, &other));
+            }
+            for (&(i, step), moved) in solved.iter().zip(answers(&others)) {
                 let there: Vec<DVec2> =
                     coordinates.iter().zip(&moved).map(|(&p, &d)| p + d).collect();
                 for (k, there) in pressures(&self.reached(&there)).into_iter().enumerate() {
-                    kpa[k] = (there - got[k]) / step;
+                    by_thread[i][k] = (there - got[k]) / step;
                 }
-                kpa
-            });
-            self.answers = Some(answers.collect());
+            }
+            self.answers = Some(by_thread);
         }
         let Some(answers) = &self.answers else { return false };
         let mut problem = LeastSquares::new(count);

@@ -103,7 +103,8 @@ impl<'a> Problem<'a> {
         force
     }
 
-    /// The Hessian with the given share of its second-order part; `None` if that is not positive definite.
+    /// The Hessian with the given share of its second-order part, minus the gradient, and the full step;
+    /// `None` if the Hessian is not positive definite.
     ///
     /// # Errors
     /// If memory runs out.
@@ -111,10 +112,9 @@ impl<'a> Problem<'a> {
         &self,
         at: &Place<'_>,
         share: f64,
-        equal_seams: bool,
         room: &mut Room,
-    ) -> Result<Option<Model<'a>>, FitError> {
-        let Solver { triangles, sewn, matrix } = self.solver;
+    ) -> Result<Option<(Model<'a>, Vec<f64>, Vec<DVec2>)>, FitError> {
+        let Solver { triangles, sewn, matrix, .. } = self.solver;
         let Room { elements, values, factor } = room;
         let coordinates = at.coordinates;
         triangles.elements(coordinates, &self.springs, at.wanted, at.turning, share, elements);
@@ -127,11 +127,9 @@ impl<'a> Problem<'a> {
         }
         matrix.add_diagonal(values, PINNED, PIN * mean);
         let courses = sewn.courses(coordinates);
-        if equal_seams {
-            let stiffnesses = sewn.stiffnesses(self.input.fabric);
-            for (k, (row, stiffness)) in courses.rows().iter().zip(stiffnesses).enumerate() {
-                matrix.add_square(values, k, row, stiffness);
-            }
+        let stiffnesses = sewn.stiffnesses(self.input.fabric);
+        for (k, (row, stiffness)) in courses.rows().iter().zip(stiffnesses).enumerate() {
+            matrix.add_square(values, k, row, stiffness);
         }
         let factor = match matrix.factorize(values, std::mem::take(factor))? {
             Ok(factor) => factor,
@@ -140,13 +138,49 @@ impl<'a> Problem<'a> {
                 return Ok(None);
             }
         };
-        let slide = self.shares(coordinates);
-        let mut row = vec![0.0; 2 * coordinates.len()];
+        let (row, slide) = (self.lean(coordinates.len()), self.shares(coordinates));
+        let downhill = self.downhill(at, &courses);
+        let mut solutions = factor.solve(&[&row, &slide, &downhill]).into_iter();
+        let mut next = || solutions.next().unwrap_or_default();
+        let (upright, slide, pinned) = (next(), next(), next());
+        let model = Model { factor, courses, upright, slide };
+        let motion = self.freed(&model, &pinned);
+        Ok(Some((model, downhill, motion)))
+    }
+
+    /// The Hessian of a kept room without its seams; `None` if that is not positive definite.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn unsewn(
+        &self,
+        coordinates: &[DVec2],
+        model: Model<'a>,
+        room: &mut Room,
+    ) -> Result<Option<Model<'a>>, FitError> {
+        let Solver { sewn, matrix, .. } = self.solver;
+        let Model { factor, courses, .. } = model;
+        let stiffnesses = sewn.stiffnesses(self.input.fabric);
+        for (k, (row, stiffness)) in courses.rows().iter().zip(stiffnesses).enumerate() {
+            matrix.add_square(&mut room.values, k, row, -stiffness);
+        }
+        let Ok(factor) = matrix.factorize(&room.values, factor.into_room())? else {
+            return Ok(None);
+        };
+        let (row, slide) = (self.lean(coordinates.len()), self.shares(coordinates));
+        let mut solutions = factor.solve(&[&row, &slide]).into_iter();
+        let mut next = || solutions.next().unwrap_or_default();
+        let (upright, slide) = (next(), next());
+        Ok(Some(Model { factor, courses, upright, slide }))
+    }
+
+    /// The row of the markers' constraint.
+    fn lean(&self, vertices: usize) -> Vec<f64> {
+        let mut row = vec![0.0; 2 * vertices];
         for &(i, w) in &self.upright {
             row[i] += w;
         }
-        let [upright, slide] = factor.solve([&row, &slide]);
-        Ok(Some(Model { factor, courses, upright, slide }))
+        row
     }
 
     /// Shares of the vertices in the pattern's area, as forces along weft.
@@ -156,20 +190,25 @@ impl<'a> Problem<'a> {
         shares.iter().flat_map(|share| [0.0, share / whole]).collect()
     }
 
-    /// The motion by which the fabric answers to forces.
+    /// The motions by which the fabric answers to forces.
+    pub fn answers(&self, model: &Model<'_>, forces: &[&[f64]]) -> Vec<Vec<DVec2>> {
+        let pinned = model.factor.solve(forces);
+        pinned.iter().map(|pinned| self.freed(model, pinned)).collect()
+    }
+
+    /// The motion of a fabric that is not pinned.
     ///
     /// The strain function is built anew round the annotated points before every step, so that sliding
     /// along it wins nothing; a net force along weft is borne by all of the fabric alike, as a
     /// woven model that slides steadily would bear it. So to the pinned fabric's answer are added
     /// those to the shared force and to the markers' constraint that make the pin bear nothing and the
     /// markers stand upright. The fabric's middle stays where it is.
-    pub fn answer(&self, model: &Model<'_>, coordinates: &[DVec2], forces: &[f64]) -> Vec<DVec2> {
-        let [pinned] = model.factor.solve([forces]);
+    fn freed(&self, model: &Model<'_>, pinned: &[f64]) -> Vec<DVec2> {
         let lean = |x: &[f64]| self.upright.iter().map(|&(i, w)| w * x[i]).sum::<f64>();
         let pin = |x: &[f64]| x[2 * PINNED + 1];
         let (u, s) = (&model.upright, &model.slide);
         let (a, b, c, d) = (lean(u), lean(s), pin(u), pin(s));
-        let (e, f) = (-lean(&pinned), -pin(&pinned));
+        let (e, f) = (-lean(pinned), -pin(pinned));
         let determinant = a * d - b * c;
         let (alpha, beta) = ((e * d - b * f) / determinant, (a * f - e * c) / determinant);
         let mut motion: Vec<DVec2> = pinned
@@ -179,8 +218,8 @@ impl<'a> Problem<'a> {
                 DVec2::new(x[0] + alpha * u[0] + beta * s[0], x[1] + alpha * u[1] + beta * s[1])
             })
             .collect();
-        let shares = self.shares(coordinates);
-        let middle: f64 = motion.iter().zip(shares.chunks_exact(2)).map(|(m, s)| s[1] * m.y).sum();
+        let shares = &self.solver.shares;
+        let middle: f64 = motion.iter().zip(shares).map(|(m, share)| share * m.y).sum();
         for m in &mut motion {
             m.y -= middle;
         }

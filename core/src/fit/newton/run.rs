@@ -62,6 +62,18 @@ struct Step {
     slope: f64,
 }
 
+impl Step {
+    fn new(motion: Vec<DVec2>, downhill: &[f64]) -> Self {
+        let slope = -motion
+            .iter()
+            .zip(downhill.chunks_exact(2))
+            .map(|(m, d)| m.x * d[0] + m.y * d[1])
+            .sum::<f64>();
+        let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
+        Self { motion, largest, slope }
+    }
+}
+
 /// The plane turned so that the first marker stands vertically above the second.
 fn turned_upright(coordinates: &[DVec2], input: &FitInput<'_>) -> Vec<DVec2> {
     let [upper, lower] = input.markers.map(|m| m.interpolate(input.disk, coordinates));
@@ -189,7 +201,8 @@ impl<'a> Run<'a> {
         let at = Place { coordinates: &self.coordinates, wanted, turning };
         if let Some(model) = self.model.take() {
             let downhill = self.problem.downhill(&at, &model.courses);
-            let step = self.solved(&model, &downhill);
+            let motion = self.problem.answers(&model, &[&downhill]).swap_remove(0);
+            let step = Step::new(motion, &downhill);
             if step.largest < SHRINKS * self.last {
                 self.kept = true;
                 self.model = Some(model);
@@ -202,26 +215,15 @@ impl<'a> Run<'a> {
         loop {
             self.ask()?;
             let at = Place { coordinates: &self.coordinates, wanted, turning };
-            if let Some(model) = self.problem.model(&at, self.share, true, &mut self.room)? {
-                let step = self.solved(&model, &self.problem.downhill(&at, &model.courses));
+            let solved = self.problem.model(&at, self.share, &mut self.room)?;
+            if let Some((model, downhill, motion)) = solved {
                 self.model = Some(model);
-                return Ok(step);
+                return Ok(Step::new(motion, &downhill));
             }
             /// Below this the rest is left out: the Gauss–Newton matrix is never negative.
             const LEAST: f64 = 0.2;
             self.share = if self.share > LEAST { 0.5 * self.share } else { 0.0 };
         }
-    }
-
-    fn solved(&self, model: &Model<'_>, downhill: &[f64]) -> Step {
-        let motion = self.problem.answer(model, &self.coordinates, downhill);
-        let slope = -motion
-            .iter()
-            .zip(downhill.chunks_exact(2))
-            .map(|(m, d)| m.x * d[0] + m.y * d[1])
-            .sum::<f64>();
-        let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
-        Step { motion, largest, slope }
     }
 
     /// Moves the vertices; whether they moved.
@@ -280,9 +282,13 @@ impl<'a> Run<'a> {
             problem.solver.triangles.gradient(coordinates, &problem.springs, &wanted, &[])
         };
         let here = gradient(&self.threads.targets(coordinates));
-        let corrected = self.threads.correct(coordinates, |other| {
-            let forces: Vec<f64> = here.iter().zip(gradient(other)).map(|(a, b)| a - b).collect();
-            problem.answer(model, coordinates, &forces)
+        let corrected = self.threads.correct(coordinates, |others| {
+            let forces: Vec<Vec<f64>> = others
+                .iter()
+                .map(|other| here.iter().zip(gradient(other)).map(|(a, b)| a - b).collect())
+                .collect();
+            let forces: Vec<&[f64]> = forces.iter().map(Vec::as_slice).collect();
+            problem.answers(model, &forces)
         });
         if corrected {
             // The next step is not to be measured against the last.
@@ -299,24 +305,20 @@ impl<'a> Run<'a> {
         if sewn.cliques().is_empty() {
             return Ok(None);
         }
-        self.forget();
+        let Some(model) = self.model.take() else { return Ok(None) };
         self.ask()?;
+        let Some(model) = self.problem.unsewn(&self.coordinates, model, &mut self.room)? else {
+            return Ok(None);
+        };
         let wanted = self.wanted(targets);
         let here = triangles.energy(&self.coordinates, &springs, &wanted, &[]);
         let turning = triangles.turning(&self.coordinates, &springs, &wanted, spacing);
-        let at = Place { coordinates: &self.coordinates, wanted: &wanted, turning: &turning };
         let mut forces = triangles.gradient(&self.coordinates, &springs, &wanted, &turning);
         forces.iter_mut().for_each(|f| *f = -*f);
-        for share in [1.0, 0.0] {
-            let Some(model) = self.problem.model(&at, share, false, &mut self.room)? else {
-                continue;
-            };
-            let motion = self.problem.answer(&model, &self.coordinates, &forces);
-            let length = triangles.longest_step(&self.coordinates, &motion);
-            let there: Vec<DVec2> =
-                self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + length * d).collect();
-            return Ok(Some(here.min(triangles.energy(&there, &springs, &wanted, &[]))));
-        }
-        Ok(None)
+        let motion = self.problem.answers(&model, &[&forces]).swap_remove(0);
+        let length = triangles.longest_step(&self.coordinates, &motion);
+        let there: Vec<DVec2> =
+            self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + length * d).collect();
+        Ok(Some(here.min(triangles.energy(&there, &springs, &wanted, &[]))))
     }
 }

@@ -304,6 +304,18 @@ impl Triangles {
         shares
     }
 
+    /// Shares of the vertices in the worn area.
+    pub fn worn_shares(&self, vertices: usize) -> Vec<f64> {
+        let whole: f64 = self.0.iter().map(|worn| worn.area).sum();
+        let mut shares = vec![0.0; vertices];
+        for worn in &self.0 {
+            for v in worn.corners {
+                shares[v as usize] += worn.area / (3.0 * whole);
+            }
+        }
+        shares
+    }
+
     /// The longest step along `motion`, up to 1, that leaves every triangle a fair share of its area.
     pub fn longest_step(&self, coordinates: &[DVec2], motion: &[DVec2]) -> f64 {
         /// Share of the way to the first collapse that a step may go.
