@@ -163,13 +163,18 @@ fn json_goes_to_standard_output_and_quiet_is_quiet() {
 fn the_maximum_of_iterations_is_said_everywhere() {
     let (mesh, design) = limb();
     let bench = Bench::new();
-    let args = ["--spacing", "9", "--max-iterations", "10"];
-    let run = bench.flatten(&mesh, &design, &args).succeeded();
-    assert!(run.stdout.to_lowercase().contains("not converged"), "{}", run.stdout);
-    let report = bench.report();
-    assert_eq!(report["fit"]["converged"], false);
-    assert!(report["fit"]["iterations"].as_u64().unwrap() <= 10);
-    assert!(report["warnings"].to_string().to_lowercase().contains("not converged"));
+    for (args, remedy) in [
+        (&["--newton-steps", "2"][..], "newton-steps"),
+        (&["--method", "diffusion", "--spacing", "9", "--max-iterations", "10"], "max-iterations"),
+    ] {
+        let run = bench.flatten(&mesh, &design, args).succeeded();
+        assert!(run.stdout.to_lowercase().contains("not converged"), "{}", run.stdout);
+        let report = bench.report();
+        assert_eq!(report["fit"]["converged"], false);
+        assert!(report["fit"]["iterations"].as_u64().unwrap() <= 10);
+        let warnings = report["warnings"].to_string();
+        assert!(warnings.contains("not converged") && warnings.contains(remedy), "{warnings}");
+    }
     let _ = bench.flatten(&mesh, &design, &["--spacing", "9"]).succeeded();
     let report = bench.report();
     assert_eq!(report["fit"]["converged"], true);

@@ -100,7 +100,7 @@ fn fabric_is_never_laid_twice() {
     for (mesh, design, holes) in cases {
         for spacing in ["5", "8", "12"] {
             let bench = Bench::new();
-            let args = ["--quiet", "--units", "mm", "--spacing", spacing];
+            let args = ["--quiet", "--units", "mm", "--method=diffusion", "--spacing", spacing];
             let _ = bench.flatten(mesh, design, &args).succeeded();
             let report = bench.report();
             let share = cell_area(&report, holes) / bench.worn().area();

@@ -68,7 +68,7 @@ fn the_report_has_every_key_of_the_contract() {
     for key in ["method", "iterations", "converged", "energy", "e_ssd", "history"] {
         assert!(!report["fit"][key].is_null(), "fit.{key} in {}", report["fit"]);
     }
-    assert_eq!(report["fit"]["method"], "diffusion");
+    assert_eq!(report["fit"]["method"], "newton");
     assert!(report["fit"]["history"].as_array().is_some_and(|h| h.len() > 1));
     assert_eq!(number(&report, "/curvature_radius_mm"), 10.0);
     assert!(report["surface"]["girths"].as_array().is_some_and(|g| g.len() >= 4));

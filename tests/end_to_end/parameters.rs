@@ -48,7 +48,14 @@ fn changes() -> BTreeMap<&'static str, Change> {
         changed: changed.to_vec(),
         ..plain(&[])
     };
-    let long = ["--quiet", "--spacing", "12"];
+    const DIFFUSION: [&str; 6] =
+        ["--quiet", "--method=diffusion", "--spacing", "10", "--max-iterations", "400"];
+    let diffused = |changed: &[&'static str]| Change {
+        base: DIFFUSION.to_vec(),
+        changed: [&DIFFUSION[..], changed].concat(),
+        ..plain(&[])
+    };
+    let long = ["--quiet", "--method=diffusion", "--spacing", "12"];
     let mut cases = BTreeMap::new();
     // The same numbers read as centimetres are another limb.
     let mut unitless = design_in_unit(&design, "cm", 0.1);
@@ -86,20 +93,23 @@ fn changes() -> BTreeMap<&'static str, Change> {
     );
     cases.insert("curvature", plain(&["--curvature", "meyer"]));
     cases.insert("curvature_radius", plain(&["--curvature-radius", "20"]));
-    cases.insert("spacing", replaced(&long, &["--quiet", "--spacing", "14"]));
-    cases.insert("start_warp", plain(&["--start-warp", "0.9"]));
-    cases.insert("start_weft", plain(&["--start-weft", "0.9"]));
-    cases.insert("damping", plain(&["--damping", "0.05"]));
-    cases.insert("steps_per_pass", plain(&["--steps-per-pass", "13"]));
-    cases.insert("coarse_levels", plain(&["--coarse-levels", "0"]));
+    cases.insert("spacing", replaced(&long, &["--quiet", "--method=diffusion", "--spacing", "14"]));
+    cases.insert("start_warp", diffused(&["--start-warp", "0.9"]));
+    cases.insert("start_weft", diffused(&["--start-weft", "0.9"]));
+    cases.insert("damping", diffused(&["--damping", "0.05"]));
+    cases.insert("steps_per_pass", diffused(&["--steps-per-pass", "13"]));
+    cases.insert("coarse_levels", diffused(&["--coarse-levels", "0"]));
     cases.insert(
         "strain_tolerance",
-        replaced(&long, &["--quiet", "--spacing", "12", "--strain-tolerance", "0.1"]),
+        replaced(&long, &[&long[..], &["--strain-tolerance", "0.1"]].concat()),
     );
-    cases.insert("plateau", replaced(&long, &["--quiet", "--spacing", "12", "--plateau", "0.9"]));
+    cases.insert("plateau", replaced(&long, &[&long[..], &["--plateau", "0.9"]].concat()));
     cases.insert(
         "max_iterations",
-        replaced(&SHORT, &["--quiet", "--spacing", "10", "--max-iterations", "100"]),
+        replaced(
+            &DIFFUSION,
+            &["--quiet", "--method=diffusion", "--spacing", "10", "--max-iterations", "100"],
+        ),
     );
     // Two different wishes 8 mm apart.
     let mut close = design.clone();
@@ -125,6 +135,10 @@ fn changes() -> BTreeMap<&'static str, Change> {
             ..plain(&[])
         },
     );
+    cases.insert("method", plain(&["--method=diffusion"]));
+    cases.insert("newton_tolerance", plain(&["--newton-tolerance", "1"]));
+    cases.insert("newton_steps", plain(&["--newton-steps", "2"]));
+    cases.insert("equal_seams", plain(&["--equal-seams=false"]));
     cases.insert("correct_pressures", plain(&["--correct-pressures=false"]));
     cases.insert("girth_step", plain(&["--girth-step", "7"]));
     cases

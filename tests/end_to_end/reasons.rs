@@ -94,7 +94,7 @@ fn two_points_of_one_thread_that_want_different_things_name_each_other() {
 fn a_run_cut_short_is_named() {
     let tube = cylinder();
     let design = wanting(&[(tube.at(2.4, 60.0), 2.0)]);
-    let (codes, _) = reasons(&tube.mesh, &design, &["--max-iterations", "10"]);
+    let (codes, _) = reasons(&tube.mesh, &design, &["--newton-steps", "1"]);
     assert_eq!(codes, ["not_converged"]);
     assert_eq!(reasons(&tube.mesh, &design, &[]).0, [""]);
 }

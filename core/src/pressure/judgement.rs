@@ -277,7 +277,11 @@ fn why(
     }
     // Below a hundredth of strain two wishes are one.
     let differs = |a: f64, b: f64| (a - b).abs() > (parameters.miss_tolerance * a).max(0.01);
-    let apart = |other: usize| (places[other].place.y - places[k].place.y).abs();
+    // Woven threads lie a whole number of cells apart.
+    let apart = |other: usize| match brace.woven {
+        Some(woven) => f64::from((woven.nodes[other].i - woven.nodes[k].i).abs()) * brace.spacing,
+        None => (places[other].place.y - places[k].place.y).abs(),
+    };
     let wanting_else = |farthest: f64, pulls: &dyn Fn(f64) -> bool| -> Vec<usize> {
         (0..annotations.len())
             .filter(|&other| other != k && apart(other) <= farthest)
