@@ -13,7 +13,9 @@ mod sparse;
 mod tests;
 
 pub(crate) use flip_free::first_root;
-pub use quality::{MapQuality, flipped_triangles, map_quality, outline_crossings, signed_area};
+pub use quality::{
+    MapQuality, crossing_edges, flipped_triangles, map_quality, outline_crossings, signed_area,
+};
 pub(crate) use rest::rest_triangles;
 pub use sparse::{Factor, Pattern, SparseError};
 

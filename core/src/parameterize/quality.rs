@@ -119,6 +119,12 @@ impl RTreeObject for Edge {
 /// that is not finite.
 #[must_use]
 pub fn outline_crossings(surface: &Surface, coordinates: &[DVec2]) -> usize {
+    crossing_edges(surface, coordinates).len()
+}
+
+/// The pairs of boundary edges that [`outline_crossings`] counts, each by its beginning.
+#[must_use]
+pub fn crossing_edges(surface: &Surface, coordinates: &[DVec2]) -> Vec<[VertexId; 2]> {
     let mut edges = Vec::new();
     for h in surface.boundary_loops().iter().flat_map(|l| &l.half_edges) {
         let vertices = [surface.from(*h), surface.to(*h)];
@@ -128,15 +134,18 @@ pub fn outline_crossings(surface: &Surface, coordinates: &[DVec2]) -> usize {
         }
     }
     let tree = RTree::bulk_load(edges);
-    tree.iter()
-        .map(|edge| {
+    let mut crossings: Vec<[VertexId; 2]> = tree
+        .iter()
+        .flat_map(|edge| {
             tree.locate_in_envelope_intersecting(edge.envelope())
                 .filter(|other| other.index > edge.index)
                 .filter(|other| !other.vertices.iter().any(|v| edge.vertices.contains(v)))
                 .filter(|other| cross(edge.ends, other.ends))
-                .count()
+                .map(|other| [edge.vertices[0], other.vertices[0]])
         })
-        .sum()
+        .collect();
+    crossings.sort_unstable();
+    crossings
 }
 
 /// Whether two boundary edges, each with the surface on its left, cross or cover the same cloth.

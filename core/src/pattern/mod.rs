@@ -1,8 +1,8 @@
 //! The pattern: the surface's own boundary laid flat, with its seams and figures.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
-use crate::parameterize::{flipped_triangles, outline_crossings};
+use crate::parameterize::{crossing_edges, flipped_triangles};
 use crate::seams::{CutSurface, Seam};
 use crate::surface::{BoundaryLoop, HalfEdgeId, Surface, VertexId};
 
@@ -21,8 +21,9 @@ pub struct Pattern {
     pub area: f64,
     /// Number of triangles that lie the wrong way round or have no area.
     pub flipped: usize,
-    /// Number of places where the outline crosses itself.
-    pub overlaps: usize,
+    /// Where the outline crosses itself: of each crossing the two places on the limb, in mm, that
+    /// would lie on each other in the pattern.
+    pub overlaps: Vec<[DVec3; 2]>,
 }
 
 /// The two sides of a seam in the pattern, start sewn to start.
@@ -59,7 +60,10 @@ pub fn pattern(cut: &CutSurface, coordinates: &[DVec2]) -> Pattern {
         width: high.x - low.x,
         height: high.y - low.y,
         flipped: flipped_triangles(disk, coordinates).count(),
-        overlaps: outline_crossings(disk, coordinates),
+        overlaps: crossing_edges(disk, coordinates)
+            .into_iter()
+            .map(|pair| pair.map(|v| disk.point(v)))
+            .collect(),
     }
 }
 

@@ -42,7 +42,7 @@ pub(crate) fn compose(found: &Found<'_>, mut warnings: Vec<Warning>) -> Report {
             height_mm: found.pattern.height,
             area_mm2: found.pattern.area,
             flipped: found.pattern.flipped,
-            overlaps: found.pattern.overlaps,
+            overlaps: found.pattern.overlaps.len(),
         },
         seams: found
             .pattern
@@ -273,14 +273,23 @@ fn pattern_warnings(found: &Found<'_>) -> Vec<Warning> {
             ),
         ));
     }
-    if pattern.overlaps > 0 {
-        warnings.push(Warning::new(
+    if let Some(&[one, other]) = pattern.overlaps.first() {
+        warnings.push(Warning::at(
             "overlaps",
             format!(
-                "the pattern's outline crosses itself in {} places: it cannot be cut from one \
-                 piece; add a seam or shorten the region",
-                pattern.overlaps
+                "the pattern's outline crosses itself in {} places and cannot be cut from one \
+                 piece: cloth for the limb at ({:.0}, {:.0}, {:.0}) mm would lie on cloth for ({:.0}, \
+                 {:.0}, {:.0}) mm; draw a dart (a seam from the edge inward) between the two, lead \
+                 the seam elsewhere, or cover less of the limb",
+                pattern.overlaps.len(),
+                one.x,
+                one.y,
+                one.z,
+                other.x,
+                other.y,
+                other.z
             ),
+            one,
         ));
     }
     for (k, seam) in pattern.seams.iter().enumerate() {

@@ -1,1 +1,415 @@
+//! The whole fit against known answers and against itself.
 
+use std::f64::consts::TAU;
+
+use glam::{DVec2, DVec3};
+
+use super::Solver;
+use crate::design::{Fabric, PressureModel};
+use crate::fit::{Fit, FitError, FitInput, Misfit, Stopped};
+use crate::geometry::{Locator, ShapeOperator, SurfacePoint};
+use crate::parameters::Parameters;
+use crate::pressure::Annotation;
+use crate::progress::{Progress, Silent, Stage};
+use crate::seams::Seam;
+use crate::surface::{Surface, VertexId};
+use crate::weave::{RestLengths, lay};
+
+/// A sheet of (rows + 1) × (columns + 1) vertices; diagonals alternate if wanted.
+fn sheet(
+    rows: usize,
+    columns: usize,
+    alternate: bool,
+    place: impl Fn(f64, f64) -> DVec3,
+) -> Surface {
+    let mut points = Vec::new();
+    for i in 0..=rows {
+        for j in 0..=columns {
+            points.push(place(j as f64 / columns as f64, i as f64 / rows as f64));
+        }
+    }
+    let id = |i: usize, j: usize| VertexId::new(i * (columns + 1) + j);
+    let mut triangles = Vec::new();
+    for i in 0..rows {
+        for j in 0..columns {
+            let [a, b, c, d] = [id(i, j), id(i, j + 1), id(i + 1, j + 1), id(i + 1, j)];
+            if alternate && (i + j) % 2 == 1 {
+                triangles.extend([[a, b, d], [b, c, d]]);
+            } else {
+                triangles.extend([[a, b, c], [a, c, d]]);
+            }
+        }
+    }
+    Surface::new(points, triangles).unwrap()
+}
+
+fn at(surface: &Surface, place: DVec3) -> SurfacePoint {
+    Locator::new(surface).closest(place).unwrap().0
+}
+
+/// A wish for the strain `strain` in the default fabric, on a place that curves like a cylinder.
+fn wish(surface: &Surface, place: DVec3, up: DVec3, strain: f64) -> Annotation {
+    let point = at(surface, place);
+    let normal = surface.normal(point.triangle);
+    let v = up.reject_from(normal).normalize();
+    let shape = ShapeOperator { normal, u: v.cross(normal), v, kuu: 0.02, kuv: 0.0, kvv: 0.0 };
+    let kpa = 0.5 * strain * 0.02 * 1000.0;
+    Annotation { at: place, point, kpa, shape }
+}
+
+struct Case {
+    disk: Surface,
+    seams: Vec<Seam>,
+    omega: Vec<DVec2>,
+    markers: [SurfacePoint; 2],
+    annotations: Vec<Annotation>,
+    fabric: Fabric,
+    parameters: Parameters,
+}
+
+impl Case {
+    fn new(disk: Surface, omega: Vec<DVec2>, markers: [DVec3; 2]) -> Self {
+        let markers = markers.map(|place| at(&disk, place));
+        Self {
+            disk,
+            seams: Vec::new(),
+            omega,
+            markers,
+            annotations: Vec::new(),
+            fabric: Fabric::default(),
+            parameters: Parameters::default(),
+        }
+    }
+
+    fn input(&self) -> FitInput<'_> {
+        FitInput {
+            disk: &self.disk,
+            omega: &self.omega,
+            markers: &self.markers,
+            annotations: &self.annotations,
+            fabric: &self.fabric,
+            pressure_model: PressureModel::Laplace,
+            parameters: &self.parameters,
+        }
+    }
+
+    fn solver(&self) -> Solver {
+        Solver::new(&self.disk, &self.seams, self.parameters.equal_seams).unwrap()
+    }
+
+    fn fit(&self) -> Fit {
+        self.solver().fit(&self.input(), None, &Silent).unwrap()
+    }
+
+    /// The pattern with its first marker upright over the second, the second at the origin.
+    fn placed(&self, fit: &Fit) -> Vec<DVec2> {
+        let [_, low] = self.markers.map(|m| m.interpolate(&self.disk, &fit.coordinates));
+        fit.coordinates.iter().map(|&p| p - low).collect()
+    }
+}
+
+fn gap(a: &[DVec2], b: &[DVec2]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a.distance(*b)).fold(0.0, f64::max)
+}
+
+#[test]
+fn a_plane_with_a_wanted_strain_comes_back_narrower_to_a_millionth() {
+    let disk = sheet(12, 16, true, |s, t| DVec3::new(120.0 * s, 90.0 * t, 0.0));
+    // A poor start: sheared, bent and too wide.
+    let omega = disk
+        .points()
+        .iter()
+        .map(|p| DVec2::new(1.3 * p.x + 0.2 * p.y, 0.9 * p.y + 4.0 * (p.x / 40.0).sin()))
+        .collect();
+    let markers = [DVec3::new(60.0, 90.0, 0.0), DVec3::new(60.0, 0.0, 0.0)];
+    let mut case = Case::new(disk, omega, markers);
+    let place = DVec3::new(35.0, 40.0, 0.0);
+    case.annotations = vec![wish(&case.disk, place, DVec3::Y, 0.2)];
+    case.fabric.weft_strain = 0.03;
+    case.parameters.correct_pressures = false;
+    case.parameters.newton_tolerance = 1e-7;
+    // Eq. (3) with a weft strain: T_weft presses on nothing, and loses the warp 3 % of its width.
+    let fit = case.fit();
+    assert_eq!(fit.stopped, Stopped::Gradient);
+    let strain = fit.targets.threads[0].wanted.unwrap();
+    assert!((strain - 0.2 * 1.03).abs() < 1e-12, "{strain}");
+    let expected: Vec<DVec2> = case
+        .disk
+        .points()
+        .iter()
+        .map(|p| DVec2::new((p.x - 60.0) / (1.0 + strain), p.y / 1.03))
+        .collect();
+    let off = gap(&case.placed(&fit), &expected);
+    assert!(off < 1e-6, "{off} mm after {} steps", fit.iterations);
+    assert!(fit.misfit.energy < 1e-12 && fit.iterations < 20);
+}
+
+#[test]
+fn a_slit_cylinder_and_a_cone_come_back_as_their_developments() {
+    // Both are intrinsically flat polyhedra: the development is exact, not only in the limit.
+    let (n, rows) = (48, 16);
+    for (low, high) in [(45.0, 45.0), (50.0, 35.0)] {
+        let length = 100.0;
+        let place = |s: f64, t: f64| {
+            let r = low + (high - low) * t;
+            let a = TAU * s;
+            DVec3::new(r * a.cos(), r * a.sin(), length * t)
+        };
+        let disk = sheet(rows, n, false, place);
+        // The polyhedron rolled out: rows of isosceles trapezia.
+        let side = |r: f64| 2.0 * r * (std::f64::consts::PI / n as f64).sin();
+        let mid_rise = |a: f64, b: f64| {
+            let apothem = (std::f64::consts::PI / n as f64).cos();
+            ((a - b) * apothem).hypot(length)
+        };
+        let development: Vec<DVec2> = if low == high {
+            disk.points()
+                .iter()
+                .enumerate()
+                .map(|(k, p)| DVec2::new((k % (n + 1)) as f64 * side(low), p.z))
+                .collect()
+        } else {
+            // The apex above the wide end; all trapezia of the cone share it.
+            let slant = mid_rise(low, high);
+            let apothem = slant * low / (low - high);
+            let half = (0.5 * side(low) / apothem).atan();
+            disk.points()
+                .iter()
+                .enumerate()
+                .map(|(k, p)| {
+                    let angle = (2.0 * (k % (n + 1)) as f64 - n as f64) * half;
+                    let share = 1.0 - (p.z / length) * (low - high) / low;
+                    apothem / half.cos() * share * DVec2::from_angle(angle - TAU / 4.0)
+                })
+                .collect()
+        };
+        let omega = development
+            .iter()
+            .map(|p| DVec2::new(1.1 * p.x + 0.1 * p.y, p.y + 0.02 * p.x))
+            .collect();
+        let middle = 0.5;
+        let mut case = Case::new(disk, omega, [place(middle, 1.0), place(middle, 0.0)]);
+        case.parameters.newton_tolerance = 1e-8;
+        let fit = case.fit();
+        let placed = case.placed(&fit);
+        let foot = development[n / 2];
+        let expected: Vec<DVec2> = development.iter().map(|&p| p - foot).collect();
+        let off = gap(&placed, &expected);
+        assert!(off < 1e-6, "{low} to {high}: {off} mm after {} steps", fit.iterations);
+    }
+}
+
+/// A slit barrel: doubly curved, with the slit's two sides sewn together.
+fn barrel(rows: usize, columns: usize, alternate: bool) -> Case {
+    let place = |s: f64, t: f64| {
+        let belly = (std::f64::consts::PI * t).sin();
+        let r = 42.0 + 9.0 * belly + (3.0 * t - 4.0 * belly) * (TAU * (s - 0.1)).sin();
+        let a = TAU * s;
+        DVec3::new(r * a.cos(), r * a.sin(), 140.0 * t)
+    };
+    let disk = sheet(rows, columns, alternate, place);
+    let omega =
+        disk.points().iter().enumerate().map(|(k, p)| {
+            DVec2::new(300.0 * (k % (columns + 1)) as f64 / columns as f64, 1.05 * p.z)
+        });
+    let omega = omega.collect();
+    let mut case = Case::new(disk, omega, [place(0.5, 1.0), place(0.5, 0.0)]);
+    let id = |i: usize, j: usize| VertexId::new(i * (columns + 1) + j);
+    case.seams = vec![Seam {
+        left: (0..=rows).rev().map(|i| id(i, 0)).collect(),
+        right: (0..=rows).rev().map(|i| id(i, columns)).collect(),
+    }];
+    case.annotations = [(0.52, 0.3, 0.12), (0.45, 0.7, 0.2)]
+        .map(|(s, t, strain)| wish(&case.disk, place(s, t), DVec3::Z, strain))
+        .to_vec();
+    case
+}
+
+fn sides(case: &Case, fit: &Fit) -> [Vec<f64>; 2] {
+    let seam = &case.seams[0];
+    [&seam.left, &seam.right].map(|side| {
+        let place = |v: VertexId| fit.coordinates[v.index()];
+        side.windows(2).map(|pair| place(pair[0]).distance(place(pair[1]))).collect()
+    })
+}
+
+#[test]
+fn sewn_edges_have_equal_lengths_and_that_costs_little() {
+    let mut case = barrel(56, 96, false);
+    let fit = case.fit();
+    let [left, right] = sides(&case, &fit);
+    let whole = |side: &[f64]| side.iter().sum::<f64>();
+    assert!((whole(&left) - whole(&right)).abs() < 0.02);
+    // 8 edges are 20 mm.
+    for (l, r) in left.windows(8).zip(right.windows(8)) {
+        assert!((whole(l) / whole(r) - 1.0).abs() < 0.002, "{l:?} {r:?}");
+    }
+    case.parameters.equal_seams = false;
+    let free = case.fit();
+    let [left, right] = sides(&case, &free);
+    let apart: Vec<f64> = left.iter().zip(&right).map(|(l, r)| (l / r - 1.0).abs()).collect();
+    assert!(apart.iter().any(|&off| off > 0.005), "nothing to hold: {apart:?}");
+    assert_eq!(free.energy_of_free_seams, None);
+    let (held, free) = (fit.misfit.energy, free.misfit.energy);
+    let told = fit.energy_of_free_seams.unwrap();
+    assert!(free < held && held < 1.2 * free, "{held} {free}");
+    assert!((told - free).abs() < 0.3 * (held - free), "{told} told, {free} found, {held} held");
+}
+
+#[test]
+fn the_marker_line_is_vertical_and_no_triangle_is_turned_over() {
+    let case = barrel(28, 48, false);
+    let fit = case.fit();
+    let [upper, lower] = case.markers.map(|m| m.interpolate(&case.disk, &fit.coordinates));
+    assert!((upper.x - lower.x).abs() < 1e-9 && upper.y > lower.y);
+    for t in case.disk.triangles() {
+        let [a, b, c] = t.map(|v| fit.coordinates[v.index()]);
+        assert!((b - a).perp_dot(c - a) > 0.0);
+    }
+}
+
+#[test]
+fn wanted_pressures_are_met_and_both_targets_are_reported() {
+    let case = barrel(28, 48, false);
+    let fit = case.fit();
+    for (k, reached) in
+        crate::pressure::reached(&case.disk, &fit.coordinates, &case.annotations, 10.0)
+            .iter()
+            .enumerate()
+    {
+        let kpa = crate::pressure::pressure_kpa(
+            PressureModel::Laplace,
+            &case.fabric,
+            &reached.curvature,
+            &reached.threads,
+        );
+        let asked = case.annotations[k].kpa;
+        assert!((kpa / asked - 1.0).abs() < 0.01, "{kpa} for {asked}");
+    }
+    let moved = fit
+        .targets
+        .threads
+        .iter()
+        .any(|thread| (thread.asked.unwrap() - thread.wanted.unwrap()).abs() > 1e-3);
+    assert!(moved, "the barrel needs no correction: {:?}", fit.targets.threads);
+}
+
+#[test]
+fn flipped_diagonals_and_finer_triangles_give_the_same_pattern() {
+    let fit = |rows: usize, columns: usize, alternate: bool| {
+        let case = barrel(rows, columns, alternate);
+        let fit = case.fit();
+        let placed = case.placed(&fit);
+        // The vertices that a boundary of 28 × 48 has.
+        let of = |i: usize, j: usize| placed[i * rows / 28 * (columns + 1) + j * columns / 48];
+        let ends = (0..=48).flat_map(|j| [of(0, j), of(28, j)]);
+        let sides = (0..=28).flat_map(|i| [of(i, 0), of(i, 48)]);
+        (ends.chain(sides).collect::<Vec<_>>(), fit.misfit.energy)
+    };
+    let (fine, energy) = fit(56, 96, false);
+    let (flipped, other) = fit(56, 96, true);
+    assert!(gap(&fine, &flipped) < 0.3, "{} mm", gap(&fine, &flipped));
+    assert!((energy / other - 1.0).abs() < 0.01, "{energy} {other}");
+    // Edges of 5.6 mm.
+    let coarse = fit(28, 48, false).0;
+    assert!(gap(&fine, &coarse) < 1.0, "{} mm", gap(&fine, &coarse));
+}
+
+#[test]
+fn it_rests_a_tighter_tolerance_hardly_moves_it() {
+    let mut case = barrel(28, 48, false);
+    let fit = case.fit();
+    case.parameters.newton_tolerance = 1e-4;
+    let tight = case.fit();
+    let off = gap(&case.placed(&fit), &case.placed(&tight));
+    assert!(off < 0.1, "{off} mm");
+    assert!((fit.misfit.energy / tight.misfit.energy - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn an_earlier_fit_shortens_the_next_and_leads_to_the_same() {
+    let mut case = barrel(28, 48, false);
+    case.parameters.newton_tolerance = 1e-3;
+    let solver = case.solver();
+    let first = solver.fit(&case.input(), None, &Silent).unwrap();
+    case.annotations[0].kpa *= 1.2;
+    let again = solver.fit(&case.input(), Some(&first), &Silent).unwrap();
+    let afresh = solver.fit(&case.input(), None, &Silent).unwrap();
+    let off = gap(&case.placed(&again), &case.placed(&afresh));
+    // Within what two corrections that both end within 0.2 % of the pressures may differ.
+    assert!(off < 0.15, "{off} mm");
+    assert!(gap(&case.placed(&again), &case.placed(&first)) > 0.5, "nothing changed");
+    assert!(again.iterations < afresh.iterations, "{} {}", again.iterations, afresh.iterations);
+}
+
+#[test]
+fn the_same_bits_on_any_number_of_threads() {
+    let case = barrel(28, 48, false);
+    let threads = |count: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
+        pool.install(|| case.fit())
+    };
+    let one = threads(1);
+    assert_eq!(one, threads(3));
+    assert_eq!(one, threads(3));
+}
+
+/// Cancels at its n-th question.
+struct After(std::sync::atomic::AtomicUsize);
+
+impl Progress for After {
+    fn report(&self, _stage: Stage, _fraction: f64, _energy: Option<f64>) {}
+
+    fn cancelled(&self) -> bool {
+        use std::sync::atomic::Ordering::Relaxed;
+        let left = self.0.load(Relaxed);
+        self.0.store(left.saturating_sub(1), Relaxed);
+        left == 0
+    }
+}
+
+#[test]
+fn it_can_be_cancelled_at_every_step() {
+    let case = barrel(14, 24, false);
+    let whole = case.fit().iterations;
+    let solver = case.solver();
+    for questions in 0..usize::try_from(whole).unwrap() {
+        let watch = After(questions.into());
+        assert_eq!(solver.fit(&case.input(), None, &watch), Err(FitError::Cancelled));
+    }
+}
+
+/// Neither description of the energy is better than the other: sampled by the diffusion's own woven
+/// grid, what Newton's steps find has no more energy per cell than what the diffusion finds.
+#[test]
+fn the_diffusion_finds_the_same_minimum() {
+    let mut case = barrel(56, 96, false);
+    case.annotations.clear();
+    case.parameters.equal_seams = false;
+    case.parameters.correct_pressures = false;
+    case.parameters.spacing = 6.0;
+    case.parameters.plateau = 1e-3;
+    let newton = case.fit();
+    let rest = crate::fit::diffusion::diffuse(&case.input(), &Silent).unwrap();
+    let shifted: Vec<DVec2> =
+        newton.coordinates.iter().map(|&p| p + DVec2::new(0.37, 0.41) * 6.0).collect();
+    let mut model = lay(&case.disk, &shifted, 6.0);
+    model.drop_loose_nodes();
+    let targets = RestLengths::new(6.0, 0, vec![0.0], 0.0);
+    let misfit = Misfit::of(&model, &targets, &case.fabric);
+    let per_cell = |misfit: &Misfit, cells: usize| misfit.energy / cells as f64;
+    let ours = per_cell(&misfit, model.cell_count());
+    let theirs = per_cell(&rest.misfit, rest.model.cell_count());
+    eprintln!(
+        "integral {} cells {} {} springs {} {}",
+        newton.misfit.energy / (newton.misfit.springs as f64) * 2.0,
+        model.cell_count(),
+        rest.model.cell_count(),
+        misfit.springs,
+        rest.misfit.springs
+    );
+    assert!(ours < 1.01 * theirs, "{ours} and {theirs} N·mm a cell");
+    let (a, b) = (misfit.rms_strain(), rest.misfit.rms_strain());
+    assert!(a < 1.02 * b, "{a} and {b} of RMS strain error");
+    assert!(ours > 0.9 * theirs, "the diffusion has not come to rest: {ours} and {theirs}");
+}
