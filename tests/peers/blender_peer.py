@@ -18,10 +18,12 @@ from measure import Times, true_scale
 from meshes import CutMesh, Floats, Ints
 
 STEPS = 10
-MISSING = "bpy is missing: `python -m pip install bpy==4.5.15` (Python 3.11), or leave --with-bpy out"
+MISSING = (
+    "bpy is missing: `python -m pip install bpy==4.5.15` (Python 3.11), or leave --with-bpy out"
+)
 
 
-class BlenderFailed(Exception):
+class BlenderError(Exception):
     """Blender gave no pattern; the message says why."""
 
 
@@ -37,12 +39,14 @@ def minimum_stretch(mesh: CutMesh, repeats: int, patience: float) -> tuple[Float
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if not made.exists():
             last = (done.stderr or done.stdout).strip().splitlines()[-1:]
-            raise BlenderFailed(f"Blender ended with {done.returncode}: {' '.join(last)}")
+            raise BlenderError(f"Blender ended with {done.returncode}: {' '.join(last)}")
         with np.load(made) as result:
             return true_scale(mesh, result["uv"]), Times(result["seconds"].tolist())
 
 
-def unwrap(points: Floats, faces: Ints, repeats: int, patience: float) -> tuple[Floats, list[float]]:
+def unwrap(
+    points: Floats, faces: Ints, repeats: int, patience: float
+) -> tuple[Floats, list[float]]:
     """Runs the unwrap in this process: UV coordinates (unit square) by vertex, and seconds."""
     try:
         import bpy

@@ -28,8 +28,9 @@ def judge(limbs: list[dict[str, Any]], whole: list[dict[str, Any]]) -> list[dict
 
     slim_at_20k: dict[str, float] = {}
     for limb in limbs:
-        seconds = {row["key"]: row["seconds"]["median"] for row in limb["methods"]
-                   if "seconds" in row}
+        seconds = {
+            row["key"]: row["seconds"]["median"] for row in limb["methods"] if "seconds" in row
+        }
         at = f"{limb['limb']} {limb['asked_triangles']:,}"
         sure = limb["fit_alone"] and all(check["counts"] for check in limb["checks"])
         ours = seconds["ours"]
@@ -39,27 +40,40 @@ def judge(limbs: list[dict[str, Any]], whole: list[dict[str, Any]]) -> list[dict
         if "slim" in seconds and share:
             ratio = seconds["slim"] / ours
             holds = ratio * share >= 1.0
-            say(f"{at}: the fit at most 1/{1.0 / share:.0f} of SLIM's time", f"1/{ratio:.1f}",
-                holds if sure else None)
+            say(
+                f"{at}: the fit at most 1/{1.0 / share:.0f} of SLIM's time",
+                f"1/{ratio:.1f}",
+                holds if sure else None,
+            )
         if "arap" in seconds and share:
             ratio = seconds["arap"] / ours
-            say(f"{at}: the fit faster than ARAP", f"ARAP takes {ratio:.2f} of ours",
-                ratio > 1.0 if sure else None)
+            say(
+                f"{at}: the fit faster than ARAP",
+                f"ARAP takes {ratio:.2f} of ours",
+                ratio > 1.0 if sure else None,
+            )
         if limb.get("diffusion"):
             ratio = seconds["diffusion"] / seconds["ours_free"]
             holds = ratio >= DIFFUSION_RATIO
             bound = "at least " if limb["diffusion"]["above"] >= 0.0 else ""
-            say(f"{at}: {DIFFUSION_RATIO:.0f} times faster than our diffusion, to the same J_E",
-                f"{bound}{ratio:.0f} times", holds if sure and bound else None)
+            say(
+                f"{at}: {DIFFUSION_RATIO:.0f} times faster than our diffusion, to the same J_E",
+                f"{bound}{ratio:.0f} times",
+                holds if sure and bound else None,
+            )
     for name in {limb["limb"]: None for limb in limbs}:
         by_size = {limb["asked_triangles"]: limb for limb in limbs if limb["limb"] == name}
         if 20_000 in by_size and 200_000 in by_size:
             pair = by_size[20_000], by_size[200_000]
             seconds_pair = tuple(limb["methods"][0]["seconds"]["median"] for limb in pair)
-            power = growth((pair[0]["triangles"], pair[1]["triangles"]),
-                           (seconds_pair[0], seconds_pair[1]))
-            say(f"{name}: time grows from 20,000 to 200,000 no faster than n^{GROWTH}",
-                f"n^{power:.2f}", power <= GROWTH if all(l["fit_alone"] for l in pair) else None)
+            power = growth(
+                (pair[0]["triangles"], pair[1]["triangles"]), (seconds_pair[0], seconds_pair[1])
+            )
+            say(
+                f"{name}: time grows from 20,000 to 200,000 no faster than n^{GROWTH}",
+                f"n^{power:.2f}",
+                power <= GROWTH if all(limb["fit_alone"] for limb in pair) else None,
+            )
     pace = slim_at_20k[next(iter(slim_at_20k))] / SLIM_SECONDS if slim_at_20k else None
     for row in whole:
         at = f"{row['limb']} {row['asked_triangles']:,}"
@@ -67,11 +81,13 @@ def judge(limbs: list[dict[str, Any]], whole: list[dict[str, Any]]) -> list[dict
         if limit:
             seconds_whole = row["seconds"]["median"]
             at_pace = f", {seconds_whole / pace:.2f} s at the pace of that machine" if pace else ""
-            say(f"{at}: whole flatten in {limit:g} s where SLIM's 18 steps at 20,000 take "
-                f"{SLIM_SECONDS:g} s", f"{seconds_whole:.2f} s{at_pace}",
-                seconds_whole / pace <= limit if pace else None)
+            say(
+                f"{at}: whole flatten in {limit:g} s where SLIM's 18 steps at 20,000 take "
+                f"{SLIM_SECONDS:g} s",
+                f"{seconds_whole:.2f} s{at_pace}",
+                seconds_whole / pace <= limit if pace else None,
+            )
         most = WHOLE_MIB.get(row["asked_triangles"])
         if most:
-            say(f"{at}: under {most:.0f} MiB", f"{row['peak_mib']:.0f} MiB",
-                row["peak_mib"] < most)
+            say(f"{at}: under {most:.0f} MiB", f"{row['peak_mib']:.0f} MiB", row["peak_mib"] < most)
     return found

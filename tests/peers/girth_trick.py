@@ -57,7 +57,9 @@ def shrunk(mesh: CutMesh, along: Floats, strain: Floats) -> Floats:
 
     level = mean(middle)
     centroids = mesh.points[mesh.faces].mean(axis=1)
-    centre = np.column_stack([np.interp(along, level, mean(centroids[:, axis])) for axis in range(3)])
+    centre = np.column_stack(
+        [np.interp(along, level, mean(centroids[:, axis])) for axis in range(3)]
+    )
     return centre + (mesh.points - centre) / (1.0 + strain)[:, None]
 
 
@@ -66,8 +68,9 @@ def trick(mesh: CutMesh, along: Floats, strain: Floats, begin: Floats) -> Floats
     return arap(shrunk(mesh, along, strain), mesh.faces, begin)
 
 
-def strain_error(mesh: CutMesh, flat: Floats, by_place: Floats, heights: Floats,
-                 strains: Floats) -> float:
+def strain_error(
+    mesh: CutMesh, flat: Floats, by_place: Floats, heights: Floats, strains: Floats
+) -> float:
     """RMS warp strain error, in the way that is kinder to the trick.
 
     by_place: the wanted strain of each vertex by its place on the limb. heights (mm), strains: the

@@ -28,7 +28,7 @@ def at_area(points: Floats, faces: Ints, flat: Floats) -> Floats:
     """The pattern scaled to the area of the surface."""
     surface = np.linalg.det(frames(points, faces)).sum()
     drawn = np.abs(np.linalg.det(flat_frames(flat, faces)).sum())
-    return flat * np.sqrt(surface / drawn)
+    return flat * float(np.sqrt(surface / drawn))
 
 
 def lscm(points: Floats, faces: Ints) -> Floats:

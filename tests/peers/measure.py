@@ -58,7 +58,9 @@ def frames(points: Floats, faces: Ints) -> Floats:
 
 def flat_frames(flat: Floats, faces: Ints) -> Floats:
     """(m, 2, 2): the two edges of each triangle of the pattern as columns, in mm."""
-    return np.stack([flat[faces[:, 1]] - flat[faces[:, 0]], flat[faces[:, 2]] - flat[faces[:, 0]]], 2)
+    return np.stack(
+        [flat[faces[:, 1]] - flat[faces[:, 0]], flat[faces[:, 2]] - flat[faces[:, 0]]], 2
+    )
 
 
 def stretches(points: Floats, faces: Ints, flat: Floats) -> tuple[Floats, Floats]:
@@ -122,7 +124,8 @@ def moved_onto(flat: Floats, other: Floats, mirror: bool = False) -> Floats:
     turn = u @ vt
     if not mirror and np.linalg.det(turn) < 0.0:
         turn = u @ np.diag([1.0, -1.0]) @ vt
-    return (flat - from_centre) @ turn + to_centre
+    moved: Floats = (flat - from_centre) @ turn + to_centre
+    return moved
 
 
 def apart(mesh: CutMesh, flat: Floats, other: Floats) -> tuple[float, float]:

@@ -24,7 +24,7 @@ NO_STAGES = (
 )
 
 
-class ProgramFailed(Exception):
+class ProgramError(Exception):
     """The program cannot be had, or ended badly; the message says what to do."""
 
 
@@ -86,6 +86,7 @@ class Program:
     """The program and a folder for what it writes."""
 
     def __init__(self, path: Path, folder: Path) -> None:
+        """The program at `path`; everything that it writes goes into `folder`."""
         self.path = path
         self.folder = folder
 
@@ -97,12 +98,21 @@ class Program:
             count = sum(line.startswith("f ") for line in lines)
         return Limb(name, scan, scan.with_suffix(".design.json"), count)
 
-    def flatten(self, limb: Limb, label: str, *options: str, repeats: int = 1,
-                patience: float = np.inf) -> Run:
+    def flatten(
+        self, limb: Limb, label: str, *options: str, repeats: int = 1, patience: float = np.inf
+    ) -> Run:
         """Flattens up to `repeats` times, no more after a run longer than `patience` seconds."""
         out = self.folder / f"{limb.scan.stem}-{label}"
-        command = ["flatten", str(limb.scan), "--design", str(limb.design), "--out", str(out),
-                   "--json", *options]
+        command = [
+            "flatten",
+            str(limb.scan),
+            "--design",
+            str(limb.design),
+            "--out",
+            str(out),
+            "--json",
+            *options,
+        ]
         fits: list[float] = []
         totals: list[float] = []
         walls: list[float] = []
@@ -119,16 +129,28 @@ class Program:
             if len(walls) >= repeats or wall > patience:
                 break
         report = json.loads((out / "report.json").read_text(encoding="utf-8"))
-        return Run(out, summary, report, Times(fits), "fit" not in stages, Times(totals),
-                   Times(walls), Times(cpus), float(summary.get("peak_mib") or peak))
+        return Run(
+            out,
+            summary,
+            report,
+            Times(fits),
+            "fit" not in stages,
+            Times(totals),
+            Times(walls),
+            Times(cpus),
+            float(summary.get("peak_mib") or peak),
+        )
 
     def _run(self, arguments: list[str]) -> tuple[str, float, float, float]:
         """Standard output, wall seconds, CPU seconds, MiB at most resident."""
         log = self.folder / "stderr.txt"
         start = time.perf_counter()
-        with log.open("wb") as errors, subprocess.Popen(
-            [str(self.path), *arguments], stdout=subprocess.PIPE, stderr=errors
-        ) as child:
+        with (
+            log.open("wb") as errors,
+            subprocess.Popen(
+                [str(self.path), *arguments], stdout=subprocess.PIPE, stderr=errors
+            ) as child,
+        ):
             assert child.stdout is not None
             text = child.stdout.read().decode()
             _, status, used = os.wait4(child.pid, 0)
@@ -136,8 +158,9 @@ class Program:
         wall = time.perf_counter() - start
         if child.returncode != 0:
             said = log.read_text(encoding="utf-8", errors="replace").strip()
-            raise ProgramFailed(f"`wovenfit {' '.join(arguments)}` ended with {child.returncode}:"
-                                f"\n{said}")
+            raise ProgramError(
+                f"`wovenfit {' '.join(arguments)}` ended with {child.returncode}:\n{said}"
+            )
         return text, wall, used.ru_utime + used.ru_stime, used.ru_maxrss / 1024.0
 
 
@@ -145,14 +168,18 @@ def find(path: Path | None) -> Path:
     """The program: the one that was named, or the release build, built if it is missing."""
     if path is not None:
         if not path.is_file():
-            raise ProgramFailed(f"{path}: there is no such program; leave --wovenfit out to build it")
+            raise ProgramError(
+                f"{path}: there is no such program; leave --wovenfit out to build it"
+            )
         return path.resolve()
     built = ROOT / "target" / "release" / "wovenfit"
     if not built.is_file():
         if shutil.which("cargo") is None:
-            raise ProgramFailed("cargo is missing: install Rust from https://rustup.rs, or name a "
-                                "built program with --wovenfit")
+            raise ProgramError(
+                "cargo is missing: install Rust from https://rustup.rs, or name a "
+                "built program with --wovenfit"
+            )
         print("building wovenfit ...", flush=True)
         if subprocess.run(["cargo", "build", "--release"], cwd=ROOT, check=False).returncode != 0:
-            raise ProgramFailed("`cargo build --release` failed: see above")
+            raise ProgramError("`cargo build --release` failed: see above")
     return built
