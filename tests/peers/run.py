@@ -25,6 +25,7 @@ try:
 
     import blender_peer
     import girth_trick
+    import known
     import libigl_peers
     import measure
     import ours
@@ -342,6 +343,7 @@ def load() -> float:
 
 def run(given: argparse.Namespace, folder: Path) -> dict[str, Any]:
     """Measures and prints; returns every figure."""
+    known.check()
     program = ours.Program(ours.find(given.wovenfit), folder)
     before = load()
     limbs: list[dict[str, Any]] = []
