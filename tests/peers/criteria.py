@@ -52,14 +52,12 @@ def judge(limbs: list[dict[str, Any]], whole: list[dict[str, Any]]) -> list[dict
                 f"ARAP takes {ratio:.2f} of ours",
                 ratio > 1.0 if sure else None,
             )
-        if limb.get("diffusion"):
-            ratio = seconds["diffusion"] / seconds["ours_free"]
-            holds = ratio >= DIFFUSION_RATIO
-            bound = "at least " if limb["diffusion"]["above"] >= 0.0 else ""
+        ratio = (limb.get("diffusion") or {}).get("ratio")
+        if ratio is not None:
             say(
                 f"{at}: {DIFFUSION_RATIO:.0f} times faster than our diffusion, to the same J_E",
-                f"{bound}{ratio:.0f} times",
-                holds if sure and bound else None,
+                f"{ratio:.0f} times",
+                ratio >= DIFFUSION_RATIO if sure else None,
             )
     for name in {limb["limb"]: None for limb in limbs}:
         by_size = {limb["asked_triangles"]: limb for limb in limbs if limb["limb"] == name}

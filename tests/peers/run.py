@@ -85,6 +85,12 @@ def arguments() -> argparse.Namespace:
         metavar="SHARE",
         help="the diffusion ends when J_E falls by less in 1,000 steps; default: the program's",
     )
+    parser.add_argument(
+        "--diffusion-spacing",
+        type=float,
+        metavar="MM",
+        help="distance of the diffusion's threads; default: the program's",
+    )
     parser.add_argument("--repeats", type=int, default=3, help="runs of each, for the median")
     parser.add_argument(
         "--patience",
@@ -207,9 +213,12 @@ def measure_limb(
     rows += peers(mesh, heights, strains, wanted, given)
     diffusion = None
     if size <= given.diffusion_up_to:
-        plateau = ("--plateau", f"{given.diffusion_plateau:g}") if given.diffusion_plateau else ()
+        options = [
+            *(["--plateau", f"{given.diffusion_plateau:g}"] if given.diffusion_plateau else []),
+            *(["--spacing", f"{given.diffusion_spacing:g}"] if given.diffusion_spacing else []),
+        ]
         slow = program.flatten(
-            limb, "diffusion", "--method", "diffusion", *plateau, *ours.PAPERS, **often
+            limb, "diffusion", "--method", "diffusion", *options, *ours.PAPERS, **often
         )
         slow_mesh = slow.mesh()
         target = np.interp(slow_mesh.pattern[:, 1], slow.rows("y_mm"), slow.rows("strain"))
@@ -224,12 +233,7 @@ def measure_limb(
                 steps=slow.report["fit"]["iterations"],
             )
         )
-        densities = free.energy_density(), slow.energy_density()
-        diffusion = {
-            "ours_density": densities[0],
-            "diffusion_density": densities[1],
-            "above": densities[1] / densities[0] - 1.0,
-        }
+        diffusion = same_energy(free, slow)
     for row in rows:
         against = "ours_free" if row["key"] == "diffusion" else "ours"
         reference = next(other for other in rows if other["key"] == against)
@@ -247,6 +251,25 @@ def measure_limb(
         "checks": checks,
         "diffusion": diffusion,
     }
+
+
+def same_energy(run: ours.Run, slow: ours.Run) -> dict[str, Any]:
+    """Ours and the diffusion at the diffusion's last J_E over the fabric's area."""
+    densities = run.energy_density(), slow.energy_density()
+    found: dict[str, Any] = {
+        "ours_density": densities[0],
+        "diffusion_density": densities[1],
+        "above": densities[1] / densities[0] - 1.0,
+    }
+    down = run.down_at(densities[1])
+    if down is not None:
+        found |= {
+            "step": down[0],
+            "steps": run.report["fit"]["iterations"],
+            "ours_seconds": down[1],
+            "ratio": slow.fit.median / down[1],
+        }
+    return found
 
 
 def peers(
@@ -322,9 +345,15 @@ def measure_whole(
         "cpu": run.cpu.as_json(),
         "peak_mib": run.peak_mib,
         "pressures": len(run.pressures()),
-        "stages": run.summary.get("stages")
-        or {key: value for key, value in run.summary["seconds"].items() if key != "total"},
+        "stages": stage_seconds(run.summary),
     }
+
+
+def stage_seconds(summary: dict[str, Any]) -> dict[str, float]:
+    """Seconds of every stage from reading to writing; of the core as a whole if it has no more."""
+    seconds = summary["seconds"]
+    core = summary.get("stages") or {"core": seconds["fit"]}
+    return {"read": seconds["read"], **core, "write": seconds["write"]}
 
 
 def versions(given: argparse.Namespace) -> dict[str, str]:

@@ -84,12 +84,14 @@ def limb_table(limb: dict[str, Any]) -> str:
     diffusion = limb.get("diffusion")
     if diffusion:
         lines.append(
-            f"J_E over the fabric's area: ours {diffusion['ours_density']:.4e}, diffusion "
-            f"{diffusion['diffusion_density']:.4e} N/mm ({diffusion['above'] * 100.0:+.1f} %): "
+            f"J_E over the fabric's area: ours, free, {diffusion['ours_density']:.4e}, diffusion "
+            f"{diffusion['diffusion_density']:.4e} N/mm ({diffusion['above'] * 100.0:+.1f} %)"
             + (
-                "its plateau stays above ours, so its ratio is a lower bound"
-                if diffusion["above"] >= 0.0
-                else "below ours, so its ratio is not for the same J_E"
+                f"; ours is down there after step {diffusion['step']} of {diffusion['steps']}, "
+                f"about {_seconds(diffusion['ours_seconds'])}: the diffusion takes "
+                f"{diffusion['ratio']:.0f} times as long to the same J_E"
+                if "ratio" in diffusion
+                else "; ours does not come down there: no time to the same J_E"
             )
         )
     return "\n".join(lines)
