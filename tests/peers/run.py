@@ -173,6 +173,8 @@ def measure_limb(
     # The wanted strain, before any correction, at the place that a height of ours has.
     along = np.interp(mesh.pattern[:, 1], default.rows("y_mm"), default.rows("t"))
     wanted = np.interp(along, free.rows("t"), strains)
+    corrected = np.interp(mesh.pattern[:, 1], default.rows("y_mm"), default.rows("strain"))
+    corrected_error = measure.warp_strain_error(mesh, mesh.pattern, corrected)
 
     rows = [
         figures(
@@ -182,6 +184,8 @@ def measure_limb(
             "ours",
             "wovenfit",
             strain_error=measure.warp_strain_error(mesh, mesh.pattern, wanted),
+            strain_error_corrected=corrected_error,
+            remark=f"{corrected_error:.4f} from the corrected strains",
             total=default.total.as_json(),
             cpu=default.cpu.as_json(),
             steps=default.report["fit"]["iterations"],
