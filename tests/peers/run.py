@@ -12,6 +12,7 @@ import importlib.util
 import json
 import os
 import platform
+import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -415,6 +416,8 @@ def run(given: argparse.Namespace, folder: Path) -> dict[str, Any]:
 
 def main() -> None:
     """The command."""
+    # Ended from outside, it still removes its temporary folder.
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit("ended"))
     given = arguments()
     if given.with_bpy and importlib.util.find_spec("bpy") is None:
         sys.exit(blender_peer.MISSING)
