@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::export::Drawing;
 use crate::field::{Field, FieldInput, everywhere};
 use crate::fit::diffusion::diffuse;
-use crate::fit::newton::Solver;
+use crate::fit::newton::{self, Solver};
 use crate::fit::{Fit, FitError, FitInput};
 use crate::geometry::{Curvature, Girth, Locator, Measures, guard_unit, measure};
 use crate::mapping::Mapping;
@@ -65,6 +65,8 @@ pub(crate) struct Found<'a> {
     pub measures: &'a Measures,
     pub annotations: &'a [Annotation],
     pub fit: &'a Fit,
+    /// J_E if sewn edges had not to be of equal lengths, where they have, in N·mm.
+    pub energy_of_free_seams: Option<f64>,
     pub pattern: &'a Pattern,
     pub judgements: &'a [Judgement],
     pub disk: &'a Surface,
@@ -223,7 +225,17 @@ impl Prepared {
         let annotations = annotate(&self.surface, &cut, design, parameters, known)?;
 
         begin(progress, Stage::Fit)?;
-        let fit = self.fit(&cut, &markers, &annotations, design, parameters, earlier, progress)?;
+        let omega = upright(&self.omega, &cut.disk, &markers.points)?;
+        let input = FitInput {
+            disk: &cut.disk,
+            omega: &omega,
+            markers: &markers.points,
+            annotations: &annotations,
+            fabric: &design.fabric,
+            pressure_model: design.pressure_model,
+            parameters,
+        };
+        let (fit, run) = self.fit(&input, earlier, progress)?;
         let (coordinates, corner) = to_origin(&fit.coordinates);
 
         begin(progress, Stage::Report)?;
@@ -240,7 +252,7 @@ impl Prepared {
         };
         let judgements =
             judge(&brace, &annotations, &design.fabric, design.pressure_model, parameters);
-        let field = everywhere(&FieldInput {
+        let worn = FieldInput {
             scan: &self.surface,
             disk: &cut.disk,
             coordinates: &coordinates,
@@ -249,7 +261,11 @@ impl Prepared {
             fabric: &design.fabric,
             pressure_model: design.pressure_model,
             parameters,
-        });
+        };
+        let (free_seams, field) = rayon::join(
+            || run.map_or(Ok(None), newton::Run::energy_of_free_seams),
+            || everywhere(&worn),
+        );
         let found = Found {
             design,
             parameters: given,
@@ -258,6 +274,7 @@ impl Prepared {
             measures: &self.measures,
             annotations: &annotations,
             fit: &fit,
+            energy_of_free_seams: free_seams?,
             pattern: &pattern,
             judgements: &judgements,
             disk: &cut.disk,
@@ -272,36 +289,23 @@ impl Prepared {
     }
 
     /// Fits the fabric by the method chosen.
-    #[expect(clippy::too_many_arguments, reason = "one private caller, the stages before it")]
-    fn fit(
-        &self,
-        cut: &CutSurface,
-        markers: &Markers,
-        annotations: &[Annotation],
-        design: &Design,
-        parameters: &Parameters,
+    fn fit<'a>(
+        &'a self,
+        input: &'a FitInput<'a>,
         earlier: Option<&Flattening>,
-        progress: &dyn Progress,
-    ) -> Result<Fit, Error> {
-        let omega = upright(&self.omega, &cut.disk, &markers.points)?;
-        let input = FitInput {
-            disk: &cut.disk,
-            omega: &omega,
-            markers: &markers.points,
-            annotations,
-            fabric: &design.fabric,
-            pressure_model: design.pressure_model,
-            parameters,
-        };
+        progress: &'a dyn Progress,
+    ) -> Result<(Fit, Option<newton::Run<'a>>), Error> {
         if let Some(solver) = &self.solver {
-            return Ok(solver.fit(&input, earlier.map(|earlier| &earlier.fit), progress)?);
+            let earlier = earlier.map(|earlier| &earlier.fit);
+            let (fit, run) = solver.fit(input, earlier, progress)?;
+            return Ok((fit, Some(run)));
         }
-        let rest = diffuse(&input, progress)?;
+        let rest = diffuse(input, progress)?;
         progress.report(Stage::Mapping, 0.0, None);
-        let mapped = Mapping::new(&cut.disk, &rest.model).vertices().map_err(FitError::from)?;
-        let coordinates = upright(&mapped, &cut.disk, &markers.points)?;
+        let mapped = Mapping::new(input.disk, &rest.model).vertices().map_err(FitError::from)?;
+        let coordinates = upright(&mapped, input.disk, input.markers)?;
         let rise = mean_y(&coordinates) - mean_y(&mapped);
-        Ok(rest.with_coordinates(coordinates, rise))
+        Ok((rest.with_coordinates(coordinates, rise), None))
     }
 }
 

@@ -59,8 +59,6 @@ pub struct Fit {
     pub stopped: Stopped,
     /// J_E and E_SSD with the wanted strains.
     pub misfit: Misfit,
-    /// J_E without the condition that sewn edges have equal lengths, where it was asked for, in N·mm.
-    pub energy_of_free_seams: Option<f64>,
 }
 
 /// Why a fit is impossible.

@@ -78,7 +78,7 @@ fn fit(found: &Found<'_>) -> FitReport {
         converged: fit.stopped.converged(),
         stopped_by: fit.stopped.name(),
         energy: fit.misfit.energy,
-        energy_of_free_seams: fit.energy_of_free_seams,
+        energy_of_free_seams: found.energy_of_free_seams,
         energy_unit: ENERGY_UNIT,
         e_ssd: fit.misfit.e_ssd,
         springs: fit.misfit.springs,

@@ -59,7 +59,6 @@ impl Rest {
             iterations: self.iterations,
             stopped: self.stopped,
             misfit: self.misfit,
-            energy_of_free_seams: None,
         }
     }
 }

@@ -30,7 +30,7 @@ mod tests;
 mod triangles;
 
 use self::matrix::Matrix;
-use self::run::Run;
+pub use self::run::Run;
 use self::seam::Sewn;
 use self::triangles::Triangles;
 use super::{Fit, FitError, FitInput};
@@ -66,16 +66,17 @@ impl Solver {
         Ok(Self { triangles, sewn, matrix, shares })
     }
 
-    /// The fit from the initial parameterization, or from an earlier fit of the same surface.
+    /// The fit from the initial parameterization, or from an earlier fit of the same surface; and its
+    /// run, which can still tell what the seams cost.
     ///
     /// # Errors
     /// If memory runs out or the job is cancelled.
-    pub fn fit(
-        &self,
-        input: &FitInput<'_>,
+    pub fn fit<'a>(
+        &'a self,
+        input: &'a FitInput<'a>,
         earlier: Option<&Fit>,
-        progress: &dyn Progress,
-    ) -> Result<Fit, FitError> {
+        progress: &'a dyn Progress,
+    ) -> Result<(Fit, Run<'a>), FitError> {
         Run::new(self, input, earlier, progress).settle()
     }
 }

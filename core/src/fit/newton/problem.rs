@@ -44,6 +44,16 @@ pub struct Model<'a> {
     slide: Vec<f64>,
 }
 
+/// A factorized Hessian with the step that it makes.
+pub struct Solved<'a> {
+    /// The Hessian.
+    pub model: Model<'a>,
+    /// Minus the gradient, in N.
+    pub downhill: Vec<f64>,
+    /// The full step, in mm.
+    pub motion: Vec<DVec2>,
+}
+
 impl Model<'_> {
     /// The room of its factor, for the next one.
     pub fn into_room(self) -> Vec<f64> {
@@ -113,7 +123,7 @@ impl<'a> Problem<'a> {
         at: &Place<'_>,
         share: f64,
         room: &mut Room,
-    ) -> Result<Option<(Model<'a>, Vec<f64>, Vec<DVec2>)>, FitError> {
+    ) -> Result<Option<Solved<'a>>, FitError> {
         let Solver { triangles, sewn, matrix, .. } = self.solver;
         let Room { elements, values, factor } = room;
         let coordinates = at.coordinates;
@@ -145,7 +155,7 @@ impl<'a> Problem<'a> {
         let (upright, slide, pinned) = (next(), next(), next());
         let model = Model { factor, courses, upright, slide };
         let motion = self.freed(&model, &pinned);
-        Ok(Some((model, downhill, motion)))
+        Ok(Some(Solved { model, downhill, motion }))
     }
 
     /// The Hessian of a kept room without its seams; `None` if that is not positive definite.

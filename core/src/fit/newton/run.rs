@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::Solver;
 use super::anderson::Anderson;
 use super::pressures::Threads;
-use super::problem::{Model, Place, Problem, Room};
+use super::problem::{Model, Place, Problem, Room, Solved};
 use super::triangles::{Turning, Wanted};
 use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
 use crate::pressure::Targets;
@@ -24,6 +24,9 @@ const KEPT_MM: f64 = 4.0;
 
 /// A Hessian is kept while each step shrinks to less than this share of the last.
 const SHRINKS: f64 = 0.5;
+
+/// No step is so many times as long as the last, or as [`NEAR_MM`].
+const GROWS: f64 = 4.0;
 
 /// Steps this large are taken by the Gauss–Newton matrix: far from the minimum the second-order part is
 /// rarely positive and seldom of use.
@@ -113,11 +116,11 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Steps until nothing moves.
+    /// Steps until nothing moves; the fit, and the run as it ended.
     ///
     /// # Errors
     /// If memory runs out or the job is cancelled.
-    pub fn settle(mut self) -> Result<Fit, FitError> {
+    pub fn settle(mut self) -> Result<(Fit, Self), FitError> {
         let parameters = self.problem.input.parameters;
         let mut targets = self.threads.targets(&self.coordinates);
         self.record(&targets);
@@ -151,17 +154,16 @@ impl<'a> Run<'a> {
             }
         };
         let misfit = self.misfit(&self.wanted(&targets));
-        let energy_of_free_seams = self.energy_of_free_seams(&targets)?;
-        Ok(Fit {
-            coordinates: self.coordinates,
+        let fit = Fit {
+            coordinates: self.coordinates.clone(),
             woven: None,
             targets,
-            history: self.history,
+            history: std::mem::take(&mut self.history),
             iterations: self.iterations,
             stopped,
             misfit,
-            energy_of_free_seams,
-        })
+        };
+        Ok((fit, self))
     }
 
     fn wanted(&self, targets: &Targets) -> Wanted {
@@ -216,9 +218,15 @@ impl<'a> Run<'a> {
             self.ask()?;
             let at = Place { coordinates: &self.coordinates, wanted, turning };
             let solved = self.problem.model(&at, self.share, &mut self.room)?;
-            if let Some((model, downhill, motion)) = solved {
-                self.model = Some(model);
-                return Ok(Step::new(motion, &downhill));
+            if let Some(Solved { model, downhill, motion }) = solved {
+                let step = Step::new(motion, &downhill);
+                // Positive by a hair, the second-order part makes steps of no use.
+                let sane = step.slope < 0.0 && step.largest < GROWS * self.last.max(NEAR_MM);
+                if sane || self.share == 0.0 {
+                    self.model = Some(model);
+                    return Ok(step);
+                }
+                self.room.factor = model.into_room();
             }
             /// Below this the rest is left out: the Gauss–Newton matrix is never negative.
             const LEAST: f64 = 0.2;
@@ -298,8 +306,12 @@ impl<'a> Run<'a> {
         corrected
     }
 
-    /// J_E one Newton step after the seams are let go; see [`Fit::energy_of_free_seams`].
-    fn energy_of_free_seams(&mut self, targets: &Targets) -> Result<Option<f64>, FitError> {
+    /// J_E without the condition that sewn edges have equal lengths, in N·mm, where there are any: one
+    /// Newton step after the seams are let go, which is exact to the second order in what they move.
+    ///
+    /// # Errors
+    /// If memory runs out or the job is cancelled.
+    pub fn energy_of_free_seams(mut self) -> Result<Option<f64>, FitError> {
         let (springs, spacing) = (self.problem.springs, self.problem.input.parameters.spacing);
         let Solver { triangles, sewn, .. } = self.problem.solver;
         if sewn.cliques().is_empty() {
@@ -310,7 +322,7 @@ impl<'a> Run<'a> {
         let Some(model) = self.problem.unsewn(&self.coordinates, model, &mut self.room)? else {
             return Ok(None);
         };
-        let wanted = self.wanted(targets);
+        let wanted = self.wanted(&self.threads.targets(&self.coordinates));
         let here = triangles.energy(&self.coordinates, &springs, &wanted, &[]);
         let turning = triangles.turning(&self.coordinates, &springs, &wanted, spacing);
         let mut forces = triangles.gradient(&self.coordinates, &springs, &wanted, &turning);

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::element::{
     Element, Gradients, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
 };
-use super::straight::Smoothing;
+use super::straight::means;
 use crate::fit::Misfit;
 use crate::parameterize::{first_root, rest_triangles};
 use crate::pressure::{StrainCourse, Targets};
@@ -50,9 +50,8 @@ impl Wanted {
 
     /// At a weft coordinate.
     fn at(&self, y: f64) -> Stretches {
-        let [strain, first, second] = self.course.at((y - self.low) / self.length);
-        let warp = [1.0 + strain, first / self.length, second / (self.length * self.length)];
-        Stretches { warp, weft: self.weft }
+        let [strain, slope] = self.course.at((y - self.low) / self.length);
+        Stretches { warp: [1.0 + strain, slope / self.length], weft: self.weft }
     }
 }
 
@@ -177,8 +176,7 @@ impl Triangles {
         struct Here {
             middle: DVec2,
             area: f64,
-            warp: DVec3,
-            weft: DVec3,
+            threads: [DVec3; 2],
             push: [f64; 2],
         }
         let here: Vec<Here> = self
@@ -189,7 +187,7 @@ impl Triangles {
                 let (g, y) = Self::gradients(worn, coordinates);
                 let d = g.determinant();
                 let wanted = wanted.at(y);
-                let [a, b] = g.stretches();
+                let (nx, ny) = (g.x.length(), g.y.length());
                 let push = |k: f64, stretch: f64, wanted: f64, n: f64| {
                     OUTWEIGHS * d * k * stretch * (wanted - stretch).max(0.0) / (n * n)
                 };
@@ -198,32 +196,30 @@ impl Triangles {
                 Here {
                     middle: (p[0] + p[1] + p[2]) / 3.0,
                     area: d * worn.area,
-                    warp: (g.y.y * u - g.y.x * v) / g.y.length(),
-                    weft: (g.x.x * v - g.x.y * u) / g.x.length(),
+                    threads: [(g.y.y * u - g.y.x * v) / ny, (g.x.x * v - g.x.y * u) / nx],
                     push: [
-                        push(springs.warp, a, wanted.warp[0], g.y.length()),
-                        push(springs.weft, b, wanted.weft, g.x.length()),
+                        push(springs.warp, ny / d, wanted.warp[0], ny),
+                        push(springs.weft, nx / d, wanted.weft, nx),
                     ],
                 }
             })
             .collect();
         let middles: Vec<DVec2> = here.iter().map(|h| h.middle).collect();
         let areas: Vec<f64> = here.iter().map(|h| h.area).collect();
-        let smoothing = Smoothing::new(&middles, &areas, spacing);
-        let field = |of: fn(&Here) -> DVec3| -> Vec<DVec3> { here.iter().map(of).collect() };
-        let warp = smoothing.mean(&middles, &areas, &field(|h| h.warp));
-        let weft = smoothing.mean(&middles, &areas, &field(|h| h.weft));
-        let in_frame = |worn: &Worn, mean: DVec3| {
-            DVec2::new(worn.frame[0].dot(mean), worn.frame[1].dot(mean)).normalize_or_zero()
-        };
+        let threads: Vec<[DVec3; 2]> = here.iter().map(|h| h.threads).collect();
+        let means = means(&middles, &areas, &threads, spacing);
         self.0
-            .iter()
+            .par_iter()
+            .with_min_len(PER_TASK)
             .zip(&here)
-            .zip(warp.iter().zip(&weft))
-            .map(|((worn, here), (&warp, &weft))| Turning {
-                warp: in_frame(worn, warp),
-                weft: in_frame(worn, weft),
-                stiffness: here.push,
+            .zip(&means)
+            .map(|((worn, here), mean)| {
+                let in_frame = |mean: DVec3| {
+                    let [u, v] = worn.frame;
+                    DVec2::new(u.dot(mean), v.dot(mean)).normalize_or_zero()
+                };
+                let [warp, weft] = mean.map(in_frame);
+                Turning { warp, weft, stiffness: here.push }
             })
             .collect()
     }
