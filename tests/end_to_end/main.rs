@@ -4,6 +4,7 @@ mod cli;
 mod demo;
 mod field;
 mod files;
+mod fit;
 mod invariance;
 mod page;
 mod paper;

@@ -7,7 +7,7 @@ use serde_json::Value;
 use support::cli::{Bench, Run, run};
 
 /// Writes a sample into the folder; its surface and its design.
-fn sample(bench: &Bench, name: &str, options: &[&str]) -> (PathBuf, Value) {
+pub fn sample(bench: &Bench, name: &str, options: &[&str]) -> (PathBuf, Value) {
     let surface = bench.path("limb.obj");
     let _ = try_sample(&surface, name, options).succeeded();
     let design = std::fs::read(bench.path("limb.design.json")).unwrap();

@@ -343,6 +343,51 @@ fn meet([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     abc * abd <= 0 && cda * cdb <= 0
 }
 
+/// Largest distance of either outline from the other (closed polygons, in mm), after the rigid motion
+/// that brings the first onto the second best (iterated closest points).
+#[must_use]
+pub fn outline_gap(a: &[DVec2], b: &[DVec2]) -> f64 {
+    let edges = |p: &[DVec2]| -> Vec<[DVec2; 2]> {
+        (0..p.len()).map(|k| [p[k], p[(k + 1) % p.len()]]).collect()
+    };
+    let dense = |p: &[DVec2]| -> Vec<DVec2> {
+        let step = |[a, b]: &[DVec2; 2]| (a.distance(*b).ceil() as usize).max(1);
+        edges(p)
+            .iter()
+            .flat_map(|e| (0..step(e)).map(|k| e[0].lerp(e[1], k as f64 / step(e) as f64)))
+            .collect()
+    };
+    let closest = |p: DVec2, edges: &[[DVec2; 2]]| -> DVec2 {
+        let on = |[a, b]: &[DVec2; 2]| {
+            let along = *b - *a;
+            let t = (p - *a).dot(along) / along.length_squared().max(f64::MIN_POSITIVE);
+            *a + t.clamp(0.0, 1.0) * along
+        };
+        let places = edges.iter().map(on);
+        places.min_by(|x, y| x.distance(p).total_cmp(&y.distance(p))).expect("an outline has edges")
+    };
+    let mean = |p: &[DVec2]| p.iter().sum::<DVec2>() / p.len() as f64;
+    let target = edges(b);
+    let mut moved = dense(a);
+    let first = mean(&dense(b)) - mean(&moved);
+    moved.iter_mut().for_each(|p| *p += first);
+    for _ in 0..15 {
+        let onto: Vec<DVec2> = moved.iter().map(|&p| closest(p, &target)).collect();
+        let (from, to) = (mean(&moved), mean(&onto));
+        let (mut cosine, mut sine) = (0.0, 0.0);
+        for (p, q) in moved.iter().zip(&onto) {
+            cosine += (*p - from).dot(*q - to);
+            sine += (*p - from).perp_dot(*q - to);
+        }
+        let turn = DVec2::new(cosine, sine).normalize();
+        moved.iter_mut().for_each(|p| *p = to + turn.rotate(*p - from));
+    }
+    let far = |points: &[DVec2], edges: &[[DVec2; 2]]| {
+        points.iter().map(|&p| p.distance(closest(p, edges))).fold(0.0, f64::max)
+    };
+    far(&moved, &target).max(far(&dense(b), &edges(&moved)))
+}
+
 /// Largest distance, in mm, that is left between two lists of points after the one is turned and
 /// moved (never mirrored) onto the other as well as it can be in the mean square.
 ///
