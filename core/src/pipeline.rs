@@ -411,3 +411,7 @@ fn draw(found: &Found<'_>, cut: &CutSurface, coordinates: &[DVec2], markers: &Ma
         name: found.design.piece.name.clone(),
     }
 }
+
+#[cfg(test)]
+#[path = "pipeline_tests.rs"]
+mod tests;

