@@ -264,7 +264,7 @@ parameters! {
          the minimum. A pattern is cut to some tenths of a millimetre.";
     newton_steps: u64 = 100, "", Kind::Integer(1..=10_000),
         "Most Newton steps.",
-        "Limbs need about ten. A run that hits it says `not converged` in the table, the report \
+        "The sample limbs need eight to twenty. A run that hits it says `not converged` in the table, the report \
          and the warnings.";
     equal_seams: bool = true, "", Kind::Switch,
         "Hold sewn edges at equal lengths in the pattern.",

@@ -9,6 +9,7 @@ use std::hint::black_box;
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use glam::{DVec2, DVec3};
+use wovenfit_core::Flattening;
 use wovenfit_core::design::{Design, Limits, RegionPlane};
 use wovenfit_core::export::{flat_obj, pattern_svg, raw_obj, worn_obj};
 use wovenfit_core::field::{FieldInput, everywhere};
@@ -76,6 +77,20 @@ fn diffusion_step(criterion: &mut Criterion) {
     group.finish();
 }
 
+/// The report page of a flattened limb.
+fn page_of(done: &Flattening) -> PageInput<'_> {
+    PageInput {
+        disk: done.disk(),
+        coordinates: &done.coordinates,
+        drawing: &done.drawing,
+        report: &done.report,
+        girths: &done.girths,
+        warp_strain: &done.field.warp_strain,
+        pressure_kpa: Some(&done.field.pressure_kpa),
+        limit_kpa: Limits::WARN_KPA,
+    }
+}
+
 fn stages(criterion: &mut Criterion) {
     let elbow = elbow();
     let parameters = Parameters::default();
@@ -121,16 +136,7 @@ fn stages(criterion: &mut Criterion) {
         parameters: &parameters,
     };
     group.bench_function("field", |b| b.iter(|| everywhere(&worn)));
-    let page = PageInput {
-        disk: done.disk(),
-        coordinates,
-        drawing: &done.drawing,
-        report: &done.report,
-        girths: &done.girths,
-        warp_strain: &done.field.warp_strain,
-        pressure_kpa: Some(&done.field.pressure_kpa),
-        limit_kpa: Limits::WARN_KPA,
-    };
+    let page = page_of(&done);
     group.bench_function("page", |b| b.iter(|| report_html(&page)));
     group.bench_function("files", |b| {
         b.iter(|| {
@@ -152,16 +158,7 @@ fn page_against_fit(criterion: &mut Criterion) {
     let parameters = Parameters::default();
     let flow = || wovenfit_core::flatten(&elbow.mesh, &elbow.design, &parameters, &Silent);
     let done = flow().expect("the elbow can be flattened");
-    let page = PageInput {
-        disk: done.disk(),
-        coordinates: &done.coordinates,
-        drawing: &done.drawing,
-        report: &done.report,
-        girths: &done.girths,
-        warp_strain: &done.field.warp_strain,
-        pressure_kpa: Some(&done.field.pressure_kpa),
-        limit_kpa: Limits::WARN_KPA,
-    };
+    let page = page_of(&done);
     let mut group = criterion.benchmark_group("the page against the fit at 20k triangles");
     group.sample_size(10);
     group.bench_function("fit", |b| b.iter(flow));

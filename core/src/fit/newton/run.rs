@@ -11,8 +11,8 @@ use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
 use crate::pressure::Targets;
 use crate::progress::{Progress, Stage};
 
-/// Targets are corrected when a step moves no vertex by more than this, in mm: then a thread's strain is
-/// known to some 0.1 %.
+/// Targets are corrected when a step moves no vertex by more than this, in mm: then most of what is
+/// left is local, and a whole thread's strain hardly changes.
 const NEAR_MM: f64 = 1.0;
 
 /// Steps that move no vertex by more than this are taken as they are: what follows the fabric (threads,
