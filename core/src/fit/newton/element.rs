@@ -22,6 +22,9 @@ use glam::DVec2;
 /// Number of local variables: ∇x (2), ∇y (2), c.
 pub const LOCAL: usize = 5;
 
+/// Those of them that are gradients' components.
+const GRADIENTS: usize = 4;
+
 /// Share of a corner in the triangle's mean weft coordinate.
 const THIRD: f64 = 1.0 / 3.0;
 
@@ -108,8 +111,8 @@ pub fn energy(g: &Gradients, k: &Springs, wanted: &Stretches) -> f64 {
         .sum()
 }
 
-/// Second derivatives of the energy per worn area by ∇x, ∇y and c: Σ k ∂r ∂r, never negative, plus the
-/// share asked for of Σ k r ∂²r. Lower triangle.
+/// Second derivatives of the energy per worn area by ∇x, ∇y and c: Σ k ∂r ∂r, and Σ k r ∂²r if asked for.
+/// Lower triangle.
 ///
 /// Of ∂²r what comes from the strain function's slope and curvature is left out: sliding the fabric along
 /// the function would have a negative stiffness, where in truth the function slides along with it.
@@ -149,9 +152,17 @@ pub fn force_at_corners(slope: &[f64; LOCAL], hats: &[DVec2; 3], area: f64) -> [
     force
 }
 
-/// Second derivatives at a triangle that is not turned over; `share` (0 to 1) of the second-order part is
-/// added to the Gauss–Newton matrix.
-pub fn bend(g: &Gradients, k: &Springs, wanted: &Stretches, share: f64) -> Bend {
+/// How much of the second derivatives is taken.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Order {
+    /// Gauss–Newton: Σ k ∂r ∂r, never negative. Far from the minimum the rest is of no use.
+    First,
+    /// All. [`Bend::make_convex`] leaves out what is negative.
+    Second,
+}
+
+/// Second derivatives at a triangle that is not turned over.
+pub fn bend(g: &Gradients, k: &Springs, wanted: &Stretches, order: Order) -> Bend {
     let d = g.determinant();
     let root = d.sqrt();
     let inverse = 1.0 / root;
@@ -179,10 +190,10 @@ pub fn bend(g: &Gradients, k: &Springs, wanted: &Stretches, share: f64) -> Bend 
                 bend[i][j] += k * dr[i] * dr[j];
             }
         }
-        let kr = share * k * r;
-        if kr == 0.0 {
+        if order == Order::First {
             continue;
         }
+        let kr = k * r;
         // n'' = w wᵀ / n with w the combination of the unit normal to v.
         let across = m.perp();
         let w = [alpha * across.x, alpha * across.y, beta * across.x, beta * across.y];
@@ -221,6 +232,24 @@ impl Bend {
         self.0[at + 1][at + 1] += s * b * b;
     }
 
+    /// Leaves out the directions of negative curvature by ∇x and ∇y (Teran, Sifakis, Irving & Fedkiw,
+    /// *Robust Quasistatic Finite Elements and Flesh Simulation*, 2005). What couples them with c, some
+    /// thousandths of them, stays as it is.
+    pub fn make_convex(&mut self) {
+        let whole: Square =
+            std::array::from_fn(|i| std::array::from_fn(|j| self.0[i.max(j)][i.min(j)]));
+        if positive(whole) {
+            return;
+        }
+        let (values, vectors) = eigen(whole);
+        for i in 0..GRADIENTS {
+            for j in 0..=i {
+                let negative = |k: usize| vectors[i][k] * values[k].min(0.0) * vectors[j][k];
+                self.0[i][j] -= (0..GRADIENTS).map(negative).sum::<f64>();
+            }
+        }
+    }
+
     /// Second derivatives by the corners' pattern coordinates, times the worn area.
     pub fn at_corners(&self, hats: &[DVec2; 3], area: f64) -> Element {
         let h = |i: usize, j: usize| if i >= j { self.0[i][j] } else { self.0[j][i] };
@@ -247,6 +276,62 @@ impl Bend {
         }
         Element { stiffness }
     }
+}
+
+type Square = [[f64; GRADIENTS]; GRADIENTS];
+
+/// Whether a symmetric matrix is positive definite.
+fn positive(mut a: Square) -> bool {
+    for j in 0..GRADIENTS {
+        if a[j][j] <= 0.0 {
+            return false;
+        }
+        for i in j + 1..GRADIENTS {
+            let factor = a[i][j] / a[j][j];
+            for k in j + 1..=i {
+                a[i][k] -= factor * a[k][j];
+            }
+        }
+    }
+    true
+}
+
+/// Eigenvalues of a symmetric matrix, and its eigenvectors as columns: Jacobi's rotations.
+fn eigen(mut a: Square) -> ([f64; GRADIENTS], Square) {
+    /// Of the matrix's square norm: eigenvalues are then right to eight digits, their error being square.
+    const LEFT: f64 = 1e-8;
+    /// Sweeps; convergence is quadratic.
+    const MOST: usize = 12;
+    let mut vectors: Square =
+        std::array::from_fn(|i| std::array::from_fn(|j| if i == j { 1.0 } else { 0.0 }));
+    let whole: f64 = a.iter().flatten().map(|x| x * x).sum();
+    for _ in 0..MOST {
+        let off: f64 = (0..GRADIENTS)
+            .flat_map(|i| (0..i).map(move |j| (i, j)))
+            .map(|(i, j)| a[i][j].powi(2))
+            .sum();
+        if off <= LEFT * whole {
+            break;
+        }
+        for p in 0..GRADIENTS {
+            for q in p + 1..GRADIENTS {
+                if a[p][q] == 0.0 {
+                    continue;
+                }
+                let theta = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
+                let t = theta.signum() / (theta.abs() + (theta * theta + 1.0).sqrt());
+                let c = 1.0 / (t * t + 1.0).sqrt();
+                let s = t * c;
+                for row in a.iter_mut().chain(&mut vectors) {
+                    (row[p], row[q]) = (c * row[p] - s * row[q], s * row[p] + c * row[q]);
+                }
+                for k in 0..GRADIENTS {
+                    (a[p][k], a[q][k]) = (c * a[p][k] - s * a[q][k], s * a[p][k] + c * a[q][k]);
+                }
+            }
+        }
+    }
+    (std::array::from_fn(|k| a[k][k]), vectors)
 }
 
 /// A triangle's part of the Hessian, in N/mm.
@@ -282,10 +367,14 @@ mod tests {
         2.5 * energy(&Gradients::new(&HATS, corners(p)), &K, &wanted(c))
     }
 
-    fn element(p: &[f64; 6], share: f64) -> Element {
+    fn element(p: &[f64; 6], order: Order, convex: bool) -> Element {
         let c = (p[1] + p[3] + p[5]) / 3.0;
         let g = Gradients::new(&HATS, corners(p));
-        bend(&g, &K, &wanted(c), share).at_corners(&HATS, 2.5)
+        let mut bend = bend(&g, &K, &wanted(c), order);
+        if convex {
+            bend.make_convex();
+        }
+        bend.at_corners(&HATS, 2.5)
     }
 
     fn force(p: &[f64; 6]) -> [f64; 6] {
@@ -315,7 +404,8 @@ mod tests {
         let gradients = |p: &[f64; 6]| Gradients::new(&HATS, corners(p));
         let force =
             |p: &[f64; 6]| force_at_corners(&slope(&gradients(p), &K, &CONSTANT), &HATS, 2.5);
-        let stiffness = bend(&gradients(&AT), &K, &CONSTANT, 1.0).at_corners(&HATS, 2.5).stiffness;
+        let stiffness =
+            bend(&gradients(&AT), &K, &CONSTANT, Order::Second).at_corners(&HATS, 2.5).stiffness;
         let mut at = 0;
         for row in 0..6 {
             for column in 0..=row {
@@ -331,15 +421,12 @@ mod tests {
         }
     }
 
-    #[test]
-    fn without_the_second_order_part_the_hessian_is_never_negative() {
-        let stiffness = element(&AT, 0.0).stiffness;
-        let at = |i: usize, j: usize| {
-            let (i, j) = (i.max(j), i.min(j));
-            stiffness[i * (i + 1) / 2 + j]
-        };
+    /// The least of v·Hv/v·v over many v, and the largest.
+    fn range(element: &Element) -> [f64; 2] {
+        let at = |i: usize, j: usize| element.stiffness[i.max(j) * (i.max(j) + 1) / 2 + i.min(j)];
         let mut random = 1u64;
-        for _ in 0..200 {
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        for _ in 0..2000 {
             let mut v = [0.0; 6];
             for x in &mut v {
                 random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
@@ -349,7 +436,60 @@ mod tests {
                 .flat_map(|i| (0..6).map(move |j| (i, j)))
                 .map(|(i, j)| v[i] * at(i, j) * v[j])
                 .sum();
-            assert!(square > -1e-12, "{square}");
+            let whole: f64 = v.iter().map(|x| x * x).sum();
+            range = [range[0].min(square / whole), range[1].max(square / whole)];
+        }
+        range
+    }
+
+    #[test]
+    fn only_all_of_the_second_order_part_makes_the_hessian_negative() {
+        let [least, _] = range(&element(&AT, Order::Second, false));
+        assert!(least < -0.01, "the case shows nothing: {least}");
+        for (order, convex) in [(Order::First, false), (Order::Second, true)] {
+            let [least, most] = range(&element(&AT, order, convex));
+            assert!(least > -1e-6 && most > 1.0, "{order:?}: {least} {most}");
+        }
+    }
+
+    #[test]
+    fn only_what_is_negative_is_left_out() {
+        let with = |off: f64| {
+            let mut bend = Bend([[0.0; LOCAL]; LOCAL]);
+            (0..LOCAL).for_each(|i| bend.0[i][i] = 1.0);
+            (bend.0[2][1], bend.0[4][0]) = (off, 0.2);
+            bend
+        };
+        let mut positive = with(0.5);
+        positive.make_convex();
+        assert_eq!(positive.0, with(0.5).0);
+        // Eigenvalues 3 along (1, 1) and −1 along (1, −1): the latter goes.
+        let mut other = with(2.0);
+        other.make_convex();
+        assert_eq!(
+            [other.0[0][0], other.0[3][3], other.0[4][0], other.0[4][4]],
+            [1.0, 1.0, 0.2, 1.0]
+        );
+        for entry in [other.0[1][1], other.0[2][2], other.0[2][1]] {
+            assert!((entry - 1.5).abs() < 1e-12, "{entry}");
+        }
+    }
+
+    #[test]
+    fn eigenvectors_make_the_matrix() {
+        let a: Square = std::array::from_fn(|i| {
+            std::array::from_fn(|j| {
+                ((i * j) as f64).cos() + if i == j { i as f64 - 1.5 } else { 0.0 }
+            })
+        });
+        let (values, vectors) = eigen(a);
+        assert!(values.iter().any(|&v| v < 0.0) && values.iter().any(|&v| v > 0.0));
+        for i in 0..GRADIENTS {
+            for j in 0..GRADIENTS {
+                let made: f64 =
+                    (0..GRADIENTS).map(|k| vectors[i][k] * values[k] * vectors[j][k]).sum();
+                assert!((made - a[i][j]).abs() < 1e-3, "{i} {j}: {made} {}", a[i][j]);
+            }
         }
     }
 

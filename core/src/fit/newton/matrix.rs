@@ -1,41 +1,35 @@
 //! The sparse symmetric matrix of the fit: two unknowns a vertex, one analysis, many factorizations.
 //!
 //! The sparsity is that of the cut surface's edges, with a full block for the vertices of every
-//! further term (an edge of a seam and the one sewn to it; the orientation markers). It never
-//! changes, so ordering and symbolic analysis are done once (faer, supernodal Cholesky, one thread:
-//! two threads were slower at 10k, 40k and 160k nodes, and their bits differed).
+//! further term (an edge of a seam and the one sewn to it). It never changes, so the order of
+//! elimination (`dissection`) and the analysis (`multifrontal`) are made once.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::perm::PermRef;
-use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
-    factorize_symbolic_cholesky,
-};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
-use faer::{Conj, MatMut, Par, Side, Spec};
+use rayon::prelude::*;
 
+use super::dissection::{Dissection, Neighbours};
 use super::element::Element;
+use super::multifrontal::{AXES, BLOCK, Blocks, Multifrontal};
 use crate::parameterize::SparseError;
 use crate::surface::Surface;
 
-/// Where the 2 × 2 block of two vertices stands in the values: the first entry of its first and of its
-/// second column.
+/// The block of two vertices, and whether it stands transposed.
 #[derive(Debug, Clone, Copy)]
-struct Block(u32, u32);
+struct Block {
+    at: u32,
+    turned: bool,
+}
 
-/// The analysed matrix; lower triangle, vertex by vertex x then y.
+/// The analysed matrix.
 pub struct Matrix {
     vertices: usize,
-    symbolic: SymbolicSparseColMat<usize>,
-    cholesky: SymbolicCholesky<usize>,
-    /// The blocks of a triangle's corners, in the order (0,0) (1,0) (1,1) (2,0) (2,1) (2,2).
+    factors: Multifrontal,
+    blocks: usize,
+    /// The blocks of a triangle's corners, in the order of `PAIRS`.
     triangles: Vec<[Block; 6]>,
-    /// The corners' pairs in that order are lower triangle as they stand, or transposed.
-    turned: Vec<[bool; 6]>,
-    /// Of every clique the blocks of its pairs, row by row, and whether they are transposed.
-    cliques: Vec<Vec<(Block, bool)>>,
-    diagonal: Vec<Block>,
+    /// Of every clique the blocks of its pairs, lower triangle row by row.
+    cliques: Vec<Vec<Block>>,
+    /// Of every vertex with itself.
+    diagonal: Vec<u32>,
 }
 
 /// Corner pairs of a triangle, lower triangle row by row.
@@ -49,74 +43,57 @@ impl Matrix {
     /// The matrix of a surface's edges, and of `cliques` of vertices that are coupled all with all.
     ///
     /// # Errors
-    /// If memory runs out.
+    /// If there are more vertices than can be counted.
     pub fn new(surface: &Surface, cliques: &[Vec<usize>]) -> Result<Self, SparseError> {
         let n = surface.vertex_count();
-        let size = 2 * n;
+        let too_large = || SparseError::TooLarge(AXES * n);
+        // Of numbers of 32 bits: blocks are counted by them, some seven a vertex.
+        if n > u32::MAX as usize / 16 {
+            return Err(too_large());
+        }
         let triangles: Vec<[usize; 3]> =
             surface.triangles().iter().map(|t| t.map(|v| v.index())).collect();
         // Of every vertex itself and its greater neighbours, in order.
         let mut pairs: Vec<(u32, u32)> = Vec::with_capacity(4 * triangles.len() + n);
-        let narrow = |v: usize| u32::try_from(v).map_err(|_| SparseError::TooLarge(size));
+        let mut couple = |a: usize, b: usize| pairs.push((a.min(b) as u32, a.max(b) as u32));
         for v in 0..n {
-            pairs.push((narrow(v)?, narrow(v)?));
+            couple(v, v);
         }
-        let mut couple = |a: usize, b: usize| -> Result<(), SparseError> {
-            pairs.push((narrow(a.min(b))?, narrow(a.max(b))?));
-            Ok(())
-        };
         for t in &triangles {
-            couple(t[0], t[1])?;
-            couple(t[1], t[2])?;
-            couple(t[2], t[0])?;
+            couple(t[0], t[1]);
+            couple(t[1], t[2]);
+            couple(t[2], t[0]);
         }
         for clique in cliques {
             for (k, &a) in clique.iter().enumerate() {
-                for &b in &clique[..k] {
-                    couple(a, b)?;
-                }
+                clique[..k].iter().for_each(|&b| couple(a, b));
             }
         }
-        pairs.sort_unstable();
+        pairs.par_sort_unstable();
         pairs.dedup();
+        if u32::try_from(pairs.len()).is_err() {
+            return Err(too_large());
+        }
         let mut start = vec![0usize; n + 1];
-        for &(column, _) in &pairs {
-            start[column as usize + 1] += 1;
+        for &(first, _) in &pairs {
+            start[first as usize + 1] += 1;
         }
         for v in 0..n {
             start[v + 1] += start[v];
         }
-        let mut columns = Vec::with_capacity(size + 1);
-        let mut rows = Vec::with_capacity(4 * pairs.len());
-        columns.push(0);
-        for v in 0..n {
-            let list = &pairs[start[v]..start[v + 1]];
-            for own in 0..2 {
-                rows.extend((own..2).map(|axis| 2 * v + axis));
-                for &(_, other) in &list[1..] {
-                    rows.extend([2 * other as usize, 2 * other as usize + 1]);
-                }
-                columns.push(rows.len());
-            }
-        }
-        if u32::try_from(rows.len()).is_err() {
-            return Err(SparseError::TooLarge(size));
-        }
-        let block = |a: usize, b: usize| -> (Block, bool) {
-            let (column, row) = (a.min(b), a.max(b));
-            let list = &pairs[start[column]..start[column + 1]];
-            let k = list.partition_point(|&(_, r)| (r as usize) < row);
-            let first = columns[2 * column] + 2 * k;
-            let second = columns[2 * column + 1] + if k == 0 { 0 } else { 2 * k - 1 };
-            (Block(first as u32, second as u32), a < b)
+        let apart: Vec<(u32, u32)> = pairs.iter().copied().filter(|(a, b)| a != b).collect();
+        let neighbours = Neighbours::new(n, &apart);
+        let dissection = Dissection::new(surface.points(), &neighbours);
+        let (factors, Blocks { of_pair, place }) =
+            Multifrontal::new(dissection, &neighbours, &pairs);
+        let block = |row: usize, column: usize| {
+            let (a, b) = (row.min(column), row.max(column));
+            let list = &pairs[start[a]..start[a + 1]];
+            let k = start[a] + list.partition_point(|&(_, other)| (other as usize) < b);
+            Block { at: of_pair[k], turned: place[row] < place[column] }
         };
-        let mut of_triangles = Vec::with_capacity(triangles.len());
-        let mut turned = Vec::with_capacity(triangles.len());
-        for t in &triangles {
-            let both = PAIRS.map(|(a, b)| block(t[a], t[b]));
-            of_triangles.push(both.map(|(block, _)| block));
-            turned.push(both.map(|(_, turned)| turned));
-        }
+        let of_triangles =
+            triangles.par_iter().map(|t| PAIRS.map(|(a, b)| block(t[a], t[b]))).collect();
         let of_cliques = cliques
             .iter()
             .map(|clique| {
@@ -126,32 +103,13 @@ impl Matrix {
                     .collect()
             })
             .collect();
-        let diagonal = (0..n).map(|v| block(v, v).0).collect();
-
-        let order = dissection(surface, &pairs, &start);
-        let too_large = |_| SparseError::TooLarge(size);
-        let symbolic = SymbolicSparseColMat::new_checked(size, size, columns, None, rows);
-        let mut forward = Vec::with_capacity(size);
-        for &v in &order {
-            forward.extend([2 * v as usize, 2 * v as usize + 1]);
-        }
-        let mut inverse = vec![0; size];
-        for (place, &unknown) in forward.iter().enumerate() {
-            inverse[unknown] = place;
-        }
-        let cholesky = factorize_symbolic_cholesky(
-            symbolic.as_ref(),
-            Side::Lower,
-            SymmetricOrdering::Custom(PermRef::new_checked(&forward, &inverse, size)),
-            CholeskySymbolicParams::default(),
-        )
-        .map_err(too_large)?;
+        let diagonal = (0..n).map(|v| block(v, v).at).collect();
+        let blocks = pairs.len();
         Ok(Self {
             vertices: n,
-            symbolic,
-            cholesky,
+            factors,
+            blocks,
             triangles: of_triangles,
-            turned,
             cliques: of_cliques,
             diagonal,
         })
@@ -159,78 +117,60 @@ impl Matrix {
 
     /// Number of values.
     pub fn len(&self) -> usize {
-        self.symbolic.compute_nnz()
+        BLOCK * self.blocks
     }
 
     /// Number of values of the factor: what a factorization costs in memory, times eight bytes.
     pub fn factor_len(&self) -> usize {
-        self.cholesky.len_val()
+        self.factors.len()
+    }
+
+    /// Adds a block given by its entries; a vertex's block with itself is given by its lower triangle.
+    fn add(values: &mut [f64], block: Block, entry: impl Fn(usize, usize) -> f64) {
+        let at = BLOCK * block.at as usize;
+        let Some([a, b, c, d]) = values.get_mut(at..at + BLOCK) else { return };
+        let (low, high) =
+            if block.turned { (entry(0, 1), entry(1, 0)) } else { (entry(1, 0), entry(0, 1)) };
+        *a += entry(0, 0);
+        *b += low;
+        *c += high;
+        *d += entry(1, 1);
     }
 
     /// Adds the triangles' parts, in order.
     pub fn add_triangles(&self, values: &mut [f64], elements: &[Element]) {
-        for ((element, blocks), turned) in elements.iter().zip(&self.triangles).zip(&self.turned) {
-            for (k, &(a, b)) in PAIRS.iter().enumerate() {
-                let Block(first, second) = blocks[k];
-                let (first, second) = (first as usize, second as usize);
-                let at = |i: usize, j: usize| element.stiffness[triangular(2 * a + i, 2 * b + j)];
-                values[first] += at(0, 0);
-                if a == b {
-                    values[first + 1] += at(1, 0);
-                    values[second] += at(1, 1);
-                } else {
-                    let (low, high) =
-                        if turned[k] { (at(0, 1), at(1, 0)) } else { (at(1, 0), at(0, 1)) };
-                    values[first + 1] += low;
-                    values[second] += high;
-                    values[second + 1] += at(1, 1);
-                }
+        for (element, blocks) in elements.iter().zip(&self.triangles) {
+            for (&block, &(a, b)) in blocks.iter().zip(&PAIRS) {
+                Self::add(values, block, |i, j| {
+                    element.stiffness[triangular(AXES * a + i, AXES * b + j)]
+                });
             }
         }
     }
 
     /// Adds s · c cᵀ for a row c over the coordinates (x₀, y₀, x₁, …) of a clique's vertices.
     pub fn add_square(&self, values: &mut [f64], clique: usize, row: &[f64], s: f64) {
-        let mut blocks = self.cliques[clique].iter();
-        for a in 0..row.len() / 2 {
-            for b in 0..=a {
-                let Some(&(Block(first, second), turned)) = blocks.next() else { return };
-                let (first, second) = (first as usize, second as usize);
-                let at = |i: usize, j: usize| s * row[2 * a + i] * row[2 * b + j];
-                if a == b {
-                    values[first] += at(0, 0);
-                    values[first + 1] += at(1, 0);
-                    values[second] += at(1, 1);
-                } else {
-                    let (low, high) =
-                        if turned { (at(0, 1), at(1, 0)) } else { (at(1, 0), at(0, 1)) };
-                    values[first] += at(0, 0);
-                    values[first + 1] += low;
-                    values[second] += high;
-                    values[second + 1] += at(1, 1);
-                }
-            }
+        let pairs = (0..row.len() / AXES).flat_map(|a| (0..=a).map(move |b| (a, b)));
+        for (&block, (a, b)) in self.cliques[clique].iter().zip(pairs) {
+            Self::add(values, block, |i, j| s * row[AXES * a + i] * row[AXES * b + j]);
         }
     }
 
     /// Adds `s` to both diagonal entries of a vertex.
     pub fn add_diagonal(&self, values: &mut [f64], vertex: usize, s: f64) {
-        let Block(first, second) = self.diagonal[vertex];
-        values[first as usize] += s;
-        values[second as usize] += s;
+        let at = BLOCK * self.diagonal[vertex] as usize;
+        values[at] += s;
+        values[at + BLOCK - 1] += s;
     }
 
     /// The mean of the diagonal's entries.
     pub fn mean_diagonal(&self, values: &[f64]) -> f64 {
-        let sum: f64 = self
-            .diagonal
-            .iter()
-            .map(|&Block(first, second)| values[first as usize] + values[second as usize])
-            .sum();
-        sum / (2 * self.vertices) as f64
+        let both = |at: u32| values[BLOCK * at as usize] + values[BLOCK * at as usize + BLOCK - 1];
+        let sum: f64 = self.diagonal.iter().map(|&at| both(at)).sum();
+        sum / (AXES * self.vertices) as f64
     }
 
-    /// The factorization of these values into the room of an earlier one; `None` if the matrix is
+    /// The factorization of these values into the room of an earlier one; the room again if the matrix is
     /// not positive definite.
     ///
     /// # Errors
@@ -240,21 +180,11 @@ impl Matrix {
         values: &[f64],
         mut factor: Vec<f64>,
     ) -> Result<Result<Factored<'a>, Vec<f64>>, SparseError> {
-        let too_large = SparseError::TooLarge(2 * self.vertices);
-        factor.clear();
-        factor.resize(self.cholesky.len_val(), 0.0);
-        let scratch = self.cholesky.factorize_numeric_llt_scratch::<f64>(Par::Seq, Spec::default());
-        let mut memory = MemBuffer::try_new(scratch).map_err(|_| too_large)?;
-        let done = self.cholesky.factorize_numeric_llt(
-            &mut factor,
-            SparseColMatRef::new(self.symbolic.as_ref(), values),
-            Side::Lower,
-            LltRegularization::default(),
-            Par::Seq,
-            MemStack::new(&mut memory),
-            Spec::default(),
-        );
-        Ok(if done.is_ok() { Ok(Factored { matrix: self, factor }) } else { Err(factor) })
+        let more = self.factors.len().saturating_sub(factor.len());
+        factor.try_reserve_exact(more).map_err(|_| SparseError::TooLarge(AXES * self.vertices))?;
+        factor.resize(self.factors.len(), 0.0);
+        let positive = self.factors.factorize(values, &mut factor);
+        Ok(if positive { Ok(Factored { matrix: self, factor }) } else { Err(factor) })
     }
 }
 
@@ -267,107 +197,13 @@ pub struct Factored<'a> {
 impl Factored<'_> {
     /// Solutions for right-hand sides, together: reading the factor is what a solve costs.
     pub fn solve(&self, right: &[&[f64]]) -> Vec<Vec<f64>> {
-        let cholesky = &self.matrix.cholesky;
-        let rows = 2 * self.matrix.vertices;
-        let count = right.len();
-        let mut x = right.concat();
-        let mut memory = MemBuffer::new(cholesky.solve_in_place_scratch::<f64>(count, Par::Seq));
-        LltRef::new(cholesky, &self.factor).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(&mut x, rows, count),
-            Par::Seq,
-            MemStack::new(&mut memory),
-        );
-        x.chunks_exact(rows).map(<[f64]>::to_vec).collect()
+        self.matrix.factors.solve(&self.factor, right)
     }
 
     /// The room of the factor, for the next one.
     pub fn into_room(self) -> Vec<f64> {
         self.factor
     }
-}
-
-/// Vertices in the order of a nested dissection of the worn surface.
-///
-/// George (1973): the vertices on one side of a cut, those on the other, then those on the cut. The
-/// cut is across the longest extent, in space, so that a seam's two sides lie together. On limbs it
-/// makes less fill than minimum degree (a sixth less at 250,000 triangles).
-fn dissection(surface: &Surface, pairs: &[(u32, u32)], start: &[usize]) -> Vec<u32> {
-    let n = surface.vertex_count();
-    // All neighbours of every vertex.
-    let mut degree = vec![0usize; n + 1];
-    for &(a, b) in pairs.iter().filter(|(a, b)| a != b) {
-        degree[a as usize + 1] += 1;
-        degree[b as usize + 1] += 1;
-    }
-    for v in 0..n {
-        degree[v + 1] += degree[v];
-    }
-    let mut next = degree.clone();
-    let mut neighbours = vec![0u32; degree[n]];
-    for column in 0..n {
-        for &(a, b) in &pairs[start[column] + 1..start[column + 1]] {
-            for (from, to) in [(a, b), (b, a)] {
-                neighbours[next[from as usize]] = to;
-                next[from as usize] += 1;
-            }
-        }
-    }
-    let place: Vec<[f32; 3]> =
-        surface.points().iter().map(|p| p.to_array().map(|x| x as f32)).collect();
-    let mut part = vec![0u32; n];
-    let mut parts = 0;
-    let mut order: Vec<u32> = (0..n as u32).collect();
-    /// Fewer vertices than this are eliminated as they come.
-    const LEAF: usize = 12;
-    let mut stack = vec![(0usize, n)];
-    while let Some((low, high)) = stack.pop() {
-        let list = &mut order[low..high];
-        if list.len() <= LEAF {
-            continue;
-        }
-        let mut least = [f32::INFINITY; 3];
-        let mut most = [f32::NEG_INFINITY; 3];
-        for &v in list.iter() {
-            for axis in 0..3 {
-                least[axis] = least[axis].min(place[v as usize][axis]);
-                most[axis] = most[axis].max(place[v as usize][axis]);
-            }
-        }
-        let extent = |axis: usize| most[axis] - least[axis];
-        let axis = (1..3).fold(0, |best, a| if extent(a) > extent(best) { a } else { best });
-        let middle = list.len() / 2;
-        let key = |v: &u32| place[*v as usize][axis];
-        list.select_nth_unstable_by(middle, |a, b| key(a).total_cmp(&key(b)).then(a.cmp(b)));
-        // What lies beyond the middle and touches what lies before it is the cut.
-        parts += 1;
-        for &v in &list[..middle] {
-            part[v as usize] = parts;
-        }
-        let touches = |v: u32| {
-            let around = &neighbours[degree[v as usize]..degree[v as usize + 1]];
-            around.iter().any(|&w| part[w as usize] == parts)
-        };
-        let mut beyond = Vec::with_capacity(list.len() - middle);
-        let mut cut = Vec::new();
-        for &v in &list[middle..] {
-            if touches(v) { cut.push(v) } else { beyond.push(v) }
-        }
-        beyond.sort_unstable();
-        cut.sort_unstable();
-        list[..middle].sort_unstable();
-        let split = low + middle;
-        let end = split + beyond.len();
-        order[split..end].copy_from_slice(&beyond);
-        order[end..high].copy_from_slice(&cut);
-        if beyond.is_empty() {
-            // Nothing was gained: a dense piece.
-            continue;
-        }
-        stack.push((low, split));
-        stack.push((split, end));
-    }
-    order
 }
 
 #[cfg(test)]
@@ -433,17 +269,5 @@ mod tests {
             matrix.add_diagonal(&mut values, v, -5.0);
         }
         assert!(matrix.factorize(&values, factor.into_room()).unwrap().is_err());
-    }
-
-    #[test]
-    fn the_dissection_is_a_permutation() {
-        let surface = grid(40, 30, true, |x, y| DVec3::new(70.0 * x, 50.0 * y, x * y));
-        let matrix = Matrix::new(&surface, &[]).unwrap();
-        assert!(matrix.factor_len() > 0);
-        let pairs: Vec<(u32, u32)> = (0..surface.vertex_count() as u32).map(|v| (v, v)).collect();
-        let start: Vec<usize> = (0..=surface.vertex_count()).collect();
-        let mut order = dissection(&surface, &pairs, &start);
-        order.sort_unstable();
-        assert!(order.iter().enumerate().all(|(i, &v)| i == v as usize));
     }
 }

@@ -18,8 +18,10 @@
 //! flattened in one piece; the pattern says where.
 
 mod anderson;
+mod dissection;
 mod element;
 mod matrix;
+mod multifrontal;
 mod pressures;
 mod problem;
 mod run;

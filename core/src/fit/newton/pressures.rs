@@ -48,6 +48,8 @@ pub struct Threads<'a> {
     /// How the pressures answer to the targets, by thread then by annotation, in kPa per strain.
     answers: Option<Vec<Vec<f64>>>,
     settled: bool,
+    /// Whether that is because the pressures agree.
+    agreed: bool,
     rounds: usize,
 }
 
@@ -65,6 +67,7 @@ impl<'a> Threads<'a> {
             wishes: Vec::new(),
             answers: None,
             settled: !input.parameters.correct_pressures || input.annotations.is_empty(),
+            agreed: false,
             rounds: 0,
         };
         threads.find(coordinates, None);
@@ -89,9 +92,19 @@ impl<'a> Threads<'a> {
         self.settled
     }
 
+    /// Whether no target has been corrected yet.
+    pub fn untouched(&self) -> bool {
+        self.rounds == 0
+    }
+
     fn reached(&self, coordinates: &[DVec2]) -> Vec<Reached> {
         let FitInput { disk, annotations, parameters, .. } = self.input;
         reached(disk, coordinates, annotations, parameters.curvature_radius)
+    }
+
+    /// The pattern has moved so far that it answers to the targets in another way.
+    pub fn forget_answers(&mut self) {
+        self.answers = None;
     }
 
     /// Finds the threads anew, as long as none has been corrected: while the fabric still moves much.
@@ -198,31 +211,53 @@ impl<'a> Threads<'a> {
         Targets::new(threads, wishes, [low, high], fabric.max_strain, parameters.row_spacing)
     }
 
-    /// Corrects the targets. `answers` gives how the pattern moves when the present targets are replaced
+    fn pressures(&self, reached: &[Reached]) -> Vec<f64> {
+        let FitInput { fabric, pressure_model, .. } = *self.input;
+        reached.iter().map(|r| kpa(pressure_model, fabric, r)).collect()
+    }
+
+    /// Which places count: one that no tension presses on does not pull at its thread.
+    fn counts(&self, reached: &[Reached]) -> Vec<bool> {
+        let presses = |r: &Reached| {
+            pressing_curvature(self.input.pressure_model, &r.curvature) > FLAT_CURVATURE
+        };
+        reached.iter().map(presses).collect()
+    }
+
+    fn agree(&self, got: &[f64], counts: &[bool]) -> bool {
+        self.input.annotations.iter().zip(got).zip(counts).all(|((a, &got), &counts)| {
+            !counts || (got - a.kpa).abs() <= (AGREE.0 * a.kpa).max(AGREE.1)
+        })
+    }
+
+    /// Looks again whether pressures that agreed some steps ago still do; if not, they are to be corrected.
+    pub fn unsettle(&mut self, coordinates: &[DVec2]) -> bool {
+        if !self.agreed || self.rounds > MOST_ROUNDS {
+            return false;
+        }
+        let here = self.reached(coordinates);
+        let agree = self.agree(&self.pressures(&here), &self.counts(&here));
+        self.settled = agree;
+        !agree
+    }
+
+    /// Corrects the targets; if they agree at one of the `last` steps they are settled. `answers` gives how the pattern moves when the present targets are replaced
     /// by each of others. Whether any target changed.
     pub fn correct(
         &mut self,
         coordinates: &[DVec2],
+        last: bool,
         answers: impl Fn(&[Targets]) -> Vec<Vec<DVec2>>,
     ) -> bool {
         let here = self.reached(coordinates);
         self.rounds += 1;
         self.find(coordinates, Some(&here));
         let FitInput { annotations, fabric, pressure_model, .. } = *self.input;
-        let pressures = |reached: &[Reached]| -> Vec<f64> {
-            reached.iter().map(|r| kpa(pressure_model, fabric, r)).collect()
-        };
-        let got = pressures(&here);
-        // A place that no tension presses on does not pull at its thread.
-        let counts: Vec<bool> = here
-            .iter()
-            .map(|r| pressing_curvature(pressure_model, &r.curvature) > FLAT_CURVATURE)
-            .collect();
-        let agree = annotations.iter().zip(&got).zip(&counts).all(|((a, &got), &counts)| {
-            !counts || (got - a.kpa).abs() <= (AGREE.0 * a.kpa).max(AGREE.1)
-        });
-        if agree || self.rounds > MOST_ROUNDS {
-            self.settled = true;
+        let got = self.pressures(&here);
+        let counts = self.counts(&here);
+        self.agreed = self.agree(&got, &counts);
+        if self.agreed || self.rounds > MOST_ROUNDS {
+            self.settled = last || !self.agreed;
             return false;
         }
         // Pressure per strain of a thread by itself.
@@ -257,7 +292,7 @@ impl<'a> Threads<'a> {
             for (&(i, step), moved) in solved.iter().zip(answers(&others)) {
                 let there: Vec<DVec2> =
                     coordinates.iter().zip(&moved).map(|(&p, &d)| p + d).collect();
-                for (k, there) in pressures(&self.reached(&there)).into_iter().enumerate() {
+                for (k, there) in self.pressures(&self.reached(&there)).into_iter().enumerate() {
                     by_thread[i][k] = (there - got[k]) / step;
                 }
             }

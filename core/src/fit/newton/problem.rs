@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::Solver;
-use super::element::{Element, Springs};
+use super::element::{Element, Order, Springs};
 use super::matrix::Factored;
 use super::seam::Courses;
 use super::triangles::{Turning, Wanted};
@@ -113,21 +113,21 @@ impl<'a> Problem<'a> {
         force
     }
 
-    /// The Hessian with the given share of its second-order part, minus the gradient, and the full step;
-    /// `None` if the Hessian is not positive definite.
+    /// The Hessian to the given order, minus the gradient, and the full step; `None` if the Hessian is not
+    /// positive definite.
     ///
     /// # Errors
     /// If memory runs out.
     pub fn model(
         &self,
         at: &Place<'_>,
-        share: f64,
+        order: Order,
         room: &mut Room,
     ) -> Result<Option<Solved<'a>>, FitError> {
         let Solver { triangles, sewn, matrix, .. } = self.solver;
         let Room { elements, values, factor } = room;
         let coordinates = at.coordinates;
-        triangles.elements(coordinates, &self.springs, at.wanted, at.turning, share, elements);
+        triangles.elements(coordinates, &self.springs, at.wanted, at.turning, order, elements);
         values.clear();
         values.resize(matrix.len(), 0.0);
         matrix.add_triangles(values, elements);

@@ -4,16 +4,25 @@ use glam::DVec2;
 
 use super::Solver;
 use super::anderson::Anderson;
+use super::element::Order;
 use super::pressures::Threads;
 use super::problem::{Model, Place, Problem, Room, Solved};
 use super::triangles::{Turning, Wanted};
 use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
+use crate::parameterize::SparseError;
 use crate::pressure::Targets;
 use crate::progress::{Progress, Stage};
 
-/// Targets are corrected when a step moves no vertex by more than this, in mm: then most of what is
-/// left is local, and a whole thread's strain hardly changes.
+/// Targets are corrected when a step moves no vertex by more than this, in mm, or promises less than this
+/// share of the energy: then most of what is left is local, and a whole thread's strain hardly changes.
 const NEAR_MM: f64 = 1.0;
+
+/// See [`NEAR_MM`].
+const NEAR_ENERGY: f64 = 0.02;
+
+/// They are corrected for the first time after a step that moves no vertex by more than this, in mm: the
+/// fabric is then still on its way, and goes to another place at no cost.
+const FIRST_MM: f64 = 35.0;
 
 /// Steps that move no vertex by more than this are taken as they are: what follows the fabric (threads,
 /// turning springs, a seam's course) makes the energy an uncertain judge of them.
@@ -25,11 +34,12 @@ const KEPT_MM: f64 = 4.0;
 /// A Hessian is kept while each step shrinks to less than this share of the last.
 const SHRINKS: f64 = 0.5;
 
-/// No step is so many times as long as the last, or as [`NEAR_MM`].
-const GROWS: f64 = 4.0;
+/// After steps this small it is kept while they shrink at all: what is left of them comes from what follows
+/// the fabric, and a new Hessian does not make that faster.
+const LAGGING_MM: f64 = 0.3;
 
-/// Steps this large are taken by the Gauss–Newton matrix: far from the minimum the second-order part is
-/// rarely positive and seldom of use.
+/// After steps this large the next is taken by the Gauss–Newton matrix: far from the minimum the
+/// second-order part is rarely positive and seldom of use.
 const FAR_MM: f64 = 10.0;
 
 /// A step halved this often is no step.
@@ -45,13 +55,13 @@ pub struct Run<'a> {
     iterations: u64,
     model: Option<Model<'a>>,
     room: Room,
-    /// Share of the second-order part in the Hessian.
-    share: f64,
     anderson: Anderson,
     /// Largest movement of a vertex in the last step, in mm.
     last: f64,
     /// Whether the Hessian at hand is from an earlier step.
     kept: bool,
+    /// Whether it is from a place too far away to serve for another step.
+    stale: bool,
     /// Whether the last step was a large one.
     far: bool,
 }
@@ -108,10 +118,10 @@ impl<'a> Run<'a> {
             iterations: 0,
             model: None,
             room: Room::default(),
-            share: 1.0,
             anderson: Anderson::default(),
             last: if earlier.is_some() { KEPT_MM } else { f64::INFINITY },
             kept: false,
+            stale: false,
             far: earlier.is_none(),
         }
     }
@@ -139,15 +149,19 @@ impl<'a> Run<'a> {
             self.far = step.largest > FAR_MM;
             let largest = step.largest;
             let mut corrected = false;
-            if self.threads.settled() || largest >= NEAR_MM {
-                self.threads.follow(&self.coordinates);
+            if !self.threads.settled() && self.ripe(&step) {
+                corrected = self.correct(largest < LAGGING_MM);
             } else {
-                corrected = self.correct();
+                self.threads.follow(&self.coordinates);
             }
             targets = self.threads.targets(&self.coordinates);
             self.record(&targets);
-            if largest < parameters.newton_tolerance && !corrected && self.threads.settled() {
-                break Stopped::Gradient;
+            let rests = largest < parameters.newton_tolerance && !corrected;
+            if rests && self.threads.settled() {
+                if !self.threads.unsettle(&self.coordinates) || !self.correct(true) {
+                    break Stopped::Gradient;
+                }
+                targets = self.threads.targets(&self.coordinates);
             }
             if self.iterations >= parameters.newton_steps || !moved {
                 break Stopped::MaxIterations;
@@ -164,6 +178,13 @@ impl<'a> Run<'a> {
             misfit,
         };
         Ok((fit, self))
+    }
+
+    /// Whether the fabric is near enough to where it goes for the targets to be corrected.
+    fn ripe(&self, step: &Step) -> bool {
+        let energy = self.history.last().map_or(0.0, |entry| entry.misfit.energy);
+        let near = step.largest < NEAR_MM || -step.slope < NEAR_ENERGY * energy;
+        near || (step.largest < FIRST_MM && self.threads.untouched())
     }
 
     fn wanted(&self, targets: &Targets) -> Wanted {
@@ -200,12 +221,16 @@ impl<'a> Run<'a> {
     /// The step from here, by the Hessian at hand if that still serves.
     fn step(&mut self, wanted: &Wanted, turning: &[Turning]) -> Result<Step, FitError> {
         self.ask()?;
+        if self.stale {
+            self.forget();
+        }
         let at = Place { coordinates: &self.coordinates, wanted, turning };
         if let Some(model) = self.model.take() {
             let downhill = self.problem.downhill(&at, &model.courses);
             let motion = self.problem.answers(&model, &[&downhill]).swap_remove(0);
             let step = Step::new(motion, &downhill);
-            if step.largest < SHRINKS * self.last {
+            let shrinks = if self.last < LAGGING_MM { 1.0 } else { SHRINKS };
+            if step.largest < shrinks * self.last {
                 self.kept = true;
                 self.model = Some(model);
                 return Ok(step);
@@ -213,25 +238,21 @@ impl<'a> Run<'a> {
             self.room.factor = model.into_room();
         }
         self.kept = false;
-        self.share = if self.far { 0.0 } else { 1.0 };
-        loop {
+        self.stale = false;
+        self.anderson.forget();
+        let orders: &[Order] =
+            if self.far { &[Order::First] } else { &[Order::Second, Order::First] };
+        for &order in orders {
             self.ask()?;
             let at = Place { coordinates: &self.coordinates, wanted, turning };
-            let solved = self.problem.model(&at, self.share, &mut self.room)?;
+            let solved = self.problem.model(&at, order, &mut self.room)?;
             if let Some(Solved { model, downhill, motion }) = solved {
-                let step = Step::new(motion, &downhill);
-                // Positive by a hair, the second-order part makes steps of no use.
-                let sane = step.slope < 0.0 && step.largest < GROWS * self.last.max(NEAR_MM);
-                if sane || self.share == 0.0 {
-                    self.model = Some(model);
-                    return Ok(step);
-                }
-                self.room.factor = model.into_room();
+                self.model = Some(model);
+                return Ok(Step::new(motion, &downhill));
             }
-            /// Below this the rest is left out: the Gauss–Newton matrix is never negative.
-            const LEAST: f64 = 0.2;
-            self.share = if self.share > LEAST { 0.5 * self.share } else { 0.0 };
         }
+        // The Gauss–Newton matrix is never negative and is held: only numbers without bounds come here.
+        Err(FitError::System(SparseError::NotPositiveDefinite(0)))
     }
 
     /// Moves the vertices; whether they moved.
@@ -261,9 +282,7 @@ impl<'a> Run<'a> {
             // Armijo's rule with its usual share.
             if value(&there) <= before + 1e-4 * length * step.slope {
                 self.coordinates = there;
-                if length < 1.0 || step.largest > KEPT_MM {
-                    self.forget();
-                }
+                self.stale = length < 1.0 || step.largest > KEPT_MM;
                 return true;
             }
             length *= 0.5;
@@ -281,16 +300,20 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Corrects the targets; whether they changed.
-    fn correct(&mut self) -> bool {
+    /// Corrects the targets; whether they changed. What agrees at the `last` steps is done.
+    fn correct(&mut self, last: bool) -> bool {
         let (problem, coordinates) = (&self.problem, &self.coordinates);
         let Some(model) = &self.model else { return false };
+        if self.stale {
+            self.threads.forget_answers();
+        }
         let gradient = |targets: &Targets| {
             let wanted = Wanted::new(targets, problem.input.fabric.weft_strain);
             problem.solver.triangles.gradient(coordinates, &problem.springs, &wanted, &[])
         };
-        let here = gradient(&self.threads.targets(coordinates));
-        let corrected = self.threads.correct(coordinates, |others| {
+        let now = self.threads.targets(coordinates);
+        let corrected = self.threads.correct(coordinates, last, |others| {
+            let here = gradient(&now);
             let forces: Vec<Vec<f64>> = others
                 .iter()
                 .map(|other| here.iter().zip(gradient(other)).map(|(a, b)| a - b).collect())

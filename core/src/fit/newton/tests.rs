@@ -339,8 +339,8 @@ fn an_earlier_fit_shortens_the_next_and_leads_to_the_same() {
     let again = solver.fit(&input, Some(&first), &Silent).unwrap().0;
     let afresh = solver.fit(&input, None, &Silent).unwrap().0;
     let off = gap(&case.placed(&again), &case.placed(&afresh));
-    // Within what two corrections that both end within 0.2 % of the pressures may differ.
-    assert!(off < 0.15, "{off} mm");
+    // Within what two corrections that both end within 0.3 % of the pressures may differ.
+    assert!(off < 0.2, "{off} mm");
     assert!(gap(&case.placed(&again), &case.placed(&first)) > 0.5, "nothing changed");
     assert!(again.iterations < afresh.iterations, "{} {}", again.iterations, afresh.iterations);
 }

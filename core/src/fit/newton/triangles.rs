@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::element::{
-    Element, Gradients, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
+    Element, Gradients, Order, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
 };
 use super::straight::means;
 use crate::fit::Misfit;
@@ -231,7 +231,7 @@ impl Triangles {
         springs: &Springs,
         wanted: &Wanted,
         turning: &[Turning],
-        share: f64,
+        order: Order,
         elements: &mut Vec<Element>,
     ) {
         self.0
@@ -240,10 +240,13 @@ impl Triangles {
             .zip(turning)
             .map(|(worn, turning)| {
                 let (g, y) = Self::gradients(worn, coordinates);
-                let mut bend = bend(&g, springs, &wanted.at(y), share);
+                let mut bend = bend(&g, springs, &wanted.at(y), order);
                 let [warp, weft] = turning.stiffness;
                 bend.turn(true, turning.warp, FELT * warp);
                 bend.turn(false, turning.weft, FELT * weft);
+                if order == Order::Second {
+                    bend.make_convex();
+                }
                 bend.at_corners(&worn.hats, worn.area)
             })
             .collect_into_vec(elements);
