@@ -9,7 +9,7 @@ use crate::denoise::{Calm, calm};
 use crate::design::Design;
 use crate::error::Error;
 use crate::export::Drawing;
-use crate::field::{Field, FieldInput, everywhere};
+use crate::field::{Field, FieldInput, Relief, everywhere};
 use crate::fit::diffusion::diffuse;
 use crate::fit::newton::{self, Solver};
 use crate::fit::{Fit, FitError, FitInput};
@@ -102,6 +102,7 @@ pub struct Prepared {
     /// The initial parameterization Ω.
     omega: Vec<DVec2>,
     solver: Option<Solver>,
+    relief: Relief,
     measures: Measures,
     /// Radius over which curvature is read, in mm.
     radius: f64,
@@ -150,7 +151,12 @@ impl Prepared {
 
         begin(progress, Stage::Parameterization)?;
         let (markers, _) = place(&cut, design.orientation)?;
-        let omega = initial(&cut.disk, &markers.points)?;
+        let read = Parameters { curvature_radius: radius, ..parameters.clone() };
+        let (flat, relief) = rayon::join(
+            || initial(&cut.disk, &markers.points),
+            || Relief::new(&surface, &cut.disk, &cut.seams, &read),
+        );
+        let omega = flat?;
         warnings.extend(omega.warnings);
         let solver = match parameters.method {
             Method::Newton => Some(Solver::new(&cut.disk, &cut.seams, parameters.equal_seams)?),
@@ -163,6 +169,7 @@ impl Prepared {
             cut: Arc::new(cut),
             omega: omega.coordinates,
             solver,
+            relief,
             measures,
             radius,
             warnings,
@@ -253,10 +260,9 @@ impl Prepared {
         let judgements =
             judge(&brace, &annotations, &design.fabric, design.pressure_model, parameters);
         let worn = FieldInput {
-            scan: &self.surface,
+            relief: &self.relief,
             disk: &cut.disk,
             coordinates: &coordinates,
-            seams: &cut.seams,
             free_edges: &free_edges,
             fabric: &design.fabric,
             pressure_model: design.pressure_model,

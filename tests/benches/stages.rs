@@ -12,7 +12,7 @@ use glam::{DVec2, DVec3};
 use wovenfit_core::Flattening;
 use wovenfit_core::design::{Design, Limits, RegionPlane};
 use wovenfit_core::export::{flat_obj, pattern_svg, raw_obj, worn_obj};
-use wovenfit_core::field::{FieldInput, everywhere};
+use wovenfit_core::field::{FieldInput, Relief, everywhere};
 use wovenfit_core::fit::diffusion::{step, step_length};
 use wovenfit_core::geometry::{Curvature, Locator, measure, noise};
 use wovenfit_core::mapping::Mapping;
@@ -125,11 +125,13 @@ fn stages(criterion: &mut Criterion) {
     assert_eq!(&cut.disk, done.disk());
     group.bench_function("pattern", |b| b.iter(|| pattern(cut, coordinates)));
     let free = free_edges(cut);
+    group.bench_function("relief", |b| {
+        b.iter(|| Relief::new(&elbow.surface, disk, &cut.seams, &parameters));
+    });
     let worn = FieldInput {
-        scan: &elbow.surface,
+        relief: &Relief::new(&elbow.surface, disk, &cut.seams, &parameters),
         disk,
         coordinates,
-        seams: &cut.seams,
         free_edges: &free,
         fabric: &elbow.design.fabric,
         pressure_model: elbow.design.pressure_model,

@@ -46,24 +46,47 @@ use places::Places;
 /// The most that a pressure over 5 mm may be uncertain, as a share of it; see `bending.rs`.
 const MOST_UNCERTAIN: f64 = 0.05;
 
+/// How the limb curves under the cut surface: what of the field does not change with the pattern.
+pub struct Relief {
+    places: Places,
+    bending: Bending,
+    /// Of the scan's edges, in mm.
+    mean_edge: f64,
+}
+
+impl std::fmt::Debug for Relief {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Relief").field("spacing", &self.bending.sampling.spacing).finish()
+    }
+}
+
+impl Relief {
+    /// Reads it from the whole scan, uncut: the limb goes on under the edge of the brace. `parameters`
+    /// give `curvature` and `curvature_radius`.
+    #[must_use]
+    pub fn new(scan: &Surface, disk: &Surface, seams: &[Seam], parameters: &Parameters) -> Self {
+        let places = Places::new(disk, seams);
+        let bending = Bending::new(scan, &places, parameters);
+        Self { places, bending, mean_edge: scan.mean_edge_length() }
+    }
+}
+
 /// A worn brace whose field is wanted.
 #[derive(Clone, Copy)]
 pub struct FieldInput<'a> {
-    /// The whole scan, uncut: the limb goes on under the edge of the brace.
-    pub scan: &'a Surface,
+    /// How the limb curves.
+    pub relief: &'a Relief,
     /// The cut surface.
     pub disk: &'a Surface,
     /// Pattern coordinates of its vertices, in mm.
     pub coordinates: &'a [DVec2],
-    /// What is sewn together.
-    pub seams: &'a [Seam],
     /// The boundary half-edges that are not sewn.
     pub free_edges: &'a [HalfEdgeId],
     /// The fabric.
     pub fabric: &'a Fabric,
     /// The formula between tension and pressure.
     pub pressure_model: PressureModel,
-    /// `curvature` and `curvature_radius`.
+    /// Those of the relief.
     pub parameters: &'a Parameters,
 }
 
@@ -105,17 +128,15 @@ pub struct Field {
 /// The field of a worn brace.
 #[must_use]
 pub fn everywhere(input: &FieldInput<'_>) -> Field {
-    let places = Places::new(input.disk, input.seams);
-
+    let Relief { places, bending, .. } = input.relief;
     let cloth = Cloth::new(input.disk, input.coordinates);
-    let bending = Bending::new(input.scan, &places, input.parameters);
 
     let pull = Pull::new(
         input.disk,
         input.coordinates,
         input.free_edges,
         input.fabric,
-        &places,
+        places,
         &bending.sampling,
         (&bending.normal, &cloth.worn_area),
         input.parameters.curvature_radius,
@@ -138,7 +159,7 @@ pub fn everywhere(input: &FieldInput<'_>) -> Field {
         pressure_kpa(input.pressure_model, input.fabric, curvature, &cloth.stretch[i])
     };
     let own: Vec<f64> = curvature.iter().enumerate().map(|(i, c)| press(i, c)).collect();
-    let (fine_pressure_kpa, fine_unreadable) = fine(input, &places, &cloth, &bending);
+    let (fine_pressure_kpa, fine_unreadable) = fine(input, places, &cloth, bending);
     let means = |of: &dyn Fn(usize) -> f64| {
         let own: Vec<f64> = (0..cloth.stretch.len()).map(of).collect();
         places.means(&own, &cloth.rest_area)
@@ -208,7 +229,7 @@ fn fine(
     } else if fine.typical_deviation.is_finite() {
         Unreadable::Noise { noise_mm: fine.noise_mm, deviation: fine.typical_deviation }
     } else {
-        Unreadable::TooCoarse { mean_edge_mm: input.scan.mean_edge_length() }
+        Unreadable::TooCoarse { mean_edge_mm: input.relief.mean_edge }
     };
     (believed, Some(why))
 }

@@ -50,10 +50,9 @@ impl Worn {
             .filter(|&h| !(sewn(self.disk.from(h)) && sewn(self.disk.to(h))))
             .collect();
         everywhere(&FieldInput {
-            scan,
+            relief: &Relief::new(scan, &self.disk, &self.seams, parameters),
             disk: &self.disk,
             coordinates: &self.coordinates,
-            seams: &self.seams,
             free_edges: &free,
             fabric,
             pressure_model: PressureModel::Laplace,

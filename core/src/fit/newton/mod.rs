@@ -31,6 +31,8 @@ mod straight;
 mod tests;
 mod triangles;
 
+use std::sync::{Mutex, PoisonError};
+
 use self::matrix::Matrix;
 pub use self::run::Run;
 use self::seam::Sewn;
@@ -47,6 +49,8 @@ pub struct Solver {
     matrix: Matrix,
     /// Shares of the vertices in the worn area.
     shares: Vec<f64>,
+    /// The room of a factor, from one fit to the next.
+    spare: Mutex<Vec<f64>>,
 }
 
 impl std::fmt::Debug for Solver {
@@ -65,7 +69,17 @@ impl Solver {
         let matrix = Matrix::new(disk, sewn.cliques())?;
         let triangles = Triangles::new(disk);
         let shares = triangles.worn_shares(disk.vertex_count());
-        Ok(Self { triangles, sewn, matrix, shares })
+        Ok(Self { triangles, sewn, matrix, shares, spare: Mutex::default() })
+    }
+
+    /// The room that an earlier fit has left, if any; several fits at once take turns with it.
+    fn take_room(&self) -> Vec<f64> {
+        std::mem::take(&mut *self.spare.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Leaves the room of a factor to the next fit.
+    fn leave_room(&self, room: Vec<f64>) {
+        *self.spare.lock().unwrap_or_else(PoisonError::into_inner) = room;
     }
 
     /// The fit from the initial parameterization, or from an earlier fit of the same surface; and its

@@ -80,6 +80,13 @@ pub struct Room {
     pub factor: Vec<f64>,
 }
 
+impl Room {
+    /// With the room of an earlier factor.
+    pub fn new(factor: Vec<f64>) -> Self {
+        Self { factor, ..Self::default() }
+    }
+}
+
 impl<'a> Problem<'a> {
     /// The fit of a solver surface.
     pub fn new(solver: &'a Solver, input: &'a FitInput<'a>) -> Self {

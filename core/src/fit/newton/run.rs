@@ -117,7 +117,7 @@ impl<'a> Run<'a> {
             history: Vec::new(),
             iterations: 0,
             model: None,
-            room: Room::default(),
+            room: Room::new(solver.take_room()),
             anderson: Anderson::default(),
             last: if earlier.is_some() { KEPT_MM } else { f64::INFINITY },
             kept: false,
@@ -335,6 +335,13 @@ impl<'a> Run<'a> {
     /// # Errors
     /// If memory runs out or the job is cancelled.
     pub fn energy_of_free_seams(mut self) -> Result<Option<f64>, FitError> {
+        let energy = self.let_seams_go();
+        self.forget();
+        self.problem.solver.leave_room(std::mem::take(&mut self.room.factor));
+        energy
+    }
+
+    fn let_seams_go(&mut self) -> Result<Option<f64>, FitError> {
         let (springs, spacing) = (self.problem.springs, self.problem.input.parameters.spacing);
         let Solver { triangles, sewn, .. } = self.problem.solver;
         if sewn.cliques().is_empty() {
@@ -351,6 +358,7 @@ impl<'a> Run<'a> {
         let mut forces = triangles.gradient(&self.coordinates, &springs, &wanted, &turning);
         forces.iter_mut().for_each(|f| *f = -*f);
         let motion = self.problem.answers(&model, &[&forces]).swap_remove(0);
+        self.room.factor = model.into_room();
         let length = triangles.longest_step(&self.coordinates, &motion);
         let there: Vec<DVec2> =
             self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + length * d).collect();
