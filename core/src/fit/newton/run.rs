@@ -239,7 +239,6 @@ impl<'a> Run<'a> {
         }
         self.kept = false;
         self.stale = false;
-        self.anderson.forget();
         let orders: &[Order] =
             if self.far { &[Order::First] } else { &[Order::Second, Order::First] };
         for &order in orders {
