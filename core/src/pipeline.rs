@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::export::Drawing;
 use crate::field::{Field, FieldInput, Relief, everywhere};
 use crate::fit::diffusion::diffuse;
-use crate::fit::newton::{self, Solver};
+use crate::fit::newton::{self, Kept, Solver};
 use crate::fit::{Fit, FitError, FitInput};
 use crate::geometry::{Curvature, Girth, Locator, Measures, guard_unit, measure};
 use crate::mapping::Mapping;
@@ -44,6 +44,7 @@ pub struct Flattening {
     pub report: Report,
     /// What the next fit of the same surface starts from.
     fit: Fit,
+    kept: Option<Arc<Kept>>,
     annotations: Vec<Annotation>,
 }
 
@@ -87,7 +88,9 @@ pub fn flatten(
     parameters: &Parameters,
     progress: &dyn Progress,
 ) -> Result<Flattening, Error> {
-    Prepared::new(raw, design, parameters, progress)?.solve(design, parameters, None, progress)
+    let mut prepared = Prepared::new(raw, design, parameters, progress)?;
+    prepared.once = true;
+    prepared.solve(design, parameters, None, progress)
 }
 
 /// A limb that is cut open and ready to be fitted: what does not change with pressures, fabric and
@@ -109,6 +112,8 @@ pub struct Prepared {
     warnings: Vec<Warning>,
     design: Design,
     parameters: Parameters,
+    /// Whether nothing is to be kept for another fit.
+    once: bool,
 }
 
 /// A stage begins.
@@ -175,6 +180,7 @@ impl Prepared {
             warnings,
             design: design.clone(),
             parameters: parameters.clone(),
+            once: false,
         })
     }
 
@@ -268,10 +274,11 @@ impl Prepared {
             pressure_model: design.pressure_model,
             parameters,
         };
-        let (free_seams, field) = rayon::join(
-            || run.map_or(Ok(None), newton::Run::energy_of_free_seams),
+        let (finished, field) = rayon::join(
+            || run.map_or(Ok((None, None)), |run| run.finish(self.once)),
             || everywhere(&worn),
         );
+        let (energy_of_free_seams, kept) = finished?;
         let found = Found {
             design,
             parameters: given,
@@ -280,7 +287,7 @@ impl Prepared {
             measures: &self.measures,
             annotations: &annotations,
             fit: &fit,
-            energy_of_free_seams: free_seams?,
+            energy_of_free_seams,
             pattern: &pattern,
             judgements: &judgements,
             disk: &cut.disk,
@@ -291,7 +298,8 @@ impl Prepared {
         let report = compose(&found, warnings);
         let drawing = draw(&found, &cut, &coordinates, &markers);
         let girths = self.measures.girths.clone();
-        Ok(Flattening { cut, coordinates, field, girths, drawing, report, fit, annotations })
+        let kept = kept.map(Arc::new);
+        Ok(Flattening { cut, coordinates, field, girths, drawing, report, fit, kept, annotations })
     }
 
     /// Fits the fabric by the method chosen.
@@ -302,7 +310,10 @@ impl Prepared {
         progress: &'a dyn Progress,
     ) -> Result<(Fit, Option<newton::Run<'a>>), Error> {
         if let Some(solver) = &self.solver {
-            let earlier = earlier.map(|earlier| &earlier.fit);
+            let earlier = earlier.map(|earlier| newton::Earlier {
+                fit: &earlier.fit,
+                kept: earlier.kept.as_deref(),
+            });
             let (fit, run) = solver.fit(input, earlier, progress)?;
             return Ok((fit, Some(run)));
         }

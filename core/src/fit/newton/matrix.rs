@@ -175,34 +175,31 @@ impl Matrix {
     ///
     /// # Errors
     /// If memory runs out.
-    pub fn factorize<'a>(
-        &'a self,
+    pub fn factorize(
+        &self,
         values: &[f64],
         mut factor: Vec<f64>,
-    ) -> Result<Result<Factored<'a>, Vec<f64>>, SparseError> {
+    ) -> Result<Result<Factor, Vec<f64>>, SparseError> {
         let more = self.factors.len().saturating_sub(factor.len());
         factor.try_reserve_exact(more).map_err(|_| SparseError::TooLarge(AXES * self.vertices))?;
         factor.resize(self.factors.len(), 0.0);
         let positive = self.factors.factorize(values, &mut factor);
-        Ok(if positive { Ok(Factored { matrix: self, factor }) } else { Err(factor) })
+        Ok(if positive { Ok(Factor(factor)) } else { Err(factor) })
+    }
+
+    /// Solutions for right-hand sides, together: reading the factor is what a solve costs.
+    pub fn solve(&self, factor: &Factor, right: &[&[f64]]) -> Vec<Vec<f64>> {
+        self.factors.solve(&factor.0, right)
     }
 }
 
 /// A factorized matrix.
-pub struct Factored<'a> {
-    matrix: &'a Matrix,
-    factor: Vec<f64>,
-}
+pub struct Factor(Vec<f64>);
 
-impl Factored<'_> {
-    /// Solutions for right-hand sides, together: reading the factor is what a solve costs.
-    pub fn solve(&self, right: &[&[f64]]) -> Vec<Vec<f64>> {
-        self.matrix.factors.solve(&self.factor, right)
-    }
-
+impl Factor {
     /// The room of the factor, for the next one.
     pub fn into_room(self) -> Vec<f64> {
-        self.factor
+        self.0
     }
 }
 
@@ -260,7 +257,7 @@ mod tests {
         let right: Vec<f64> =
             dense.iter().map(|row| row.iter().zip(&wanted).map(|(a, b)| a * b).sum()).collect();
         let factor = matrix.factorize(&values, Vec::new()).unwrap().ok().unwrap();
-        let x = factor.solve(&[&right]);
+        let x = matrix.solve(&factor, &[&right]);
         for (got, want) in x[0].iter().zip(&wanted) {
             assert!((got - want).abs() < 1e-10, "{got} {want}");
         }

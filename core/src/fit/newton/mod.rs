@@ -31,9 +31,12 @@ mod straight;
 mod tests;
 mod triangles;
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::Arc;
 
+use self::element::Springs;
 use self::matrix::Matrix;
+use self::pressures::Answers;
+use self::problem::Model;
 pub use self::run::Run;
 use self::seam::Sewn;
 use self::triangles::Triangles;
@@ -49,8 +52,30 @@ pub struct Solver {
     matrix: Matrix,
     /// Shares of the vertices in the worn area.
     shares: Vec<f64>,
-    /// The room of a factor, from one fit to the next.
-    spare: Mutex<Vec<f64>>,
+}
+
+/// What a fit leaves to the next one of the same surface: its last Hessian, and how the pressures answer to
+/// the targets.
+pub struct Kept {
+    model: Arc<Model>,
+    springs: Springs,
+    upright: Vec<(usize, f64)>,
+    answers: Option<Answers>,
+}
+
+impl std::fmt::Debug for Kept {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Kept").field("springs", &self.springs).finish_non_exhaustive()
+    }
+}
+
+/// An earlier fit of the same surface.
+#[derive(Clone, Copy)]
+pub struct Earlier<'a> {
+    /// Its result.
+    pub fit: &'a Fit,
+    /// What it has left.
+    pub kept: Option<&'a Kept>,
 }
 
 impl std::fmt::Debug for Solver {
@@ -69,28 +94,18 @@ impl Solver {
         let matrix = Matrix::new(disk, sewn.cliques())?;
         let triangles = Triangles::new(disk);
         let shares = triangles.worn_shares(disk.vertex_count());
-        Ok(Self { triangles, sewn, matrix, shares, spare: Mutex::default() })
-    }
-
-    /// The room that an earlier fit has left, if any; several fits at once take turns with it.
-    fn take_room(&self) -> Vec<f64> {
-        std::mem::take(&mut *self.spare.lock().unwrap_or_else(PoisonError::into_inner))
-    }
-
-    /// Leaves the room of a factor to the next fit.
-    fn leave_room(&self, room: Vec<f64>) {
-        *self.spare.lock().unwrap_or_else(PoisonError::into_inner) = room;
+        Ok(Self { triangles, sewn, matrix, shares })
     }
 
     /// The fit from the initial parameterization, or from an earlier fit of the same surface; and its
-    /// run, which can still tell what the seams cost.
+    /// run, which can still tell what the seams cost and leave something to the next fit.
     ///
     /// # Errors
     /// If memory runs out or the job is cancelled.
     pub fn fit<'a>(
         &'a self,
         input: &'a FitInput<'a>,
-        earlier: Option<&Fit>,
+        earlier: Option<Earlier<'_>>,
         progress: &'a dyn Progress,
     ) -> Result<(Fit, Run<'a>), FitError> {
         Run::new(self, input, earlier, progress).settle()

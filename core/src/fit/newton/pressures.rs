@@ -28,12 +28,23 @@ const EFFORT: f64 = 1e-3;
 /// More threads than this (a painted field) are corrected each by itself, without the others' answer.
 const MOST_SOLVED: usize = 24;
 
-/// Pressures within this fraction of each other agree, or within this pressure (kPa): a seventh of what is
-/// promised.
-const AGREE: (f64, f64) = (0.003, 0.003);
+/// Pressures within this fraction of each other agree, or within this pressure (kPa): a twentieth of what is
+/// promised, so that it hardly matters from where a fit began.
+const AGREE: f64 = 0.001;
+
+/// They still do after the last steps: a seventh of what is promised.
+const STILL_AGREE: f64 = 0.003;
 
 /// Target strains that change by less have settled.
 const SETTLED_STRAIN: f64 = 2e-4;
+
+/// How the pressures answer to the targets.
+pub struct Answers {
+    /// The annotations of each thread.
+    groups: Vec<Vec<usize>>,
+    /// By thread then by annotation, in kPa per strain.
+    by_thread: Vec<Vec<f64>>,
+}
 
 /// The threads with annotated points and their targets.
 pub struct Threads<'a> {
@@ -74,8 +85,12 @@ impl<'a> Threads<'a> {
         threads
     }
 
-    /// Continues with the targets of an earlier fit where it has one for the same annotation.
-    pub fn resume(&mut self, earlier: &Targets) {
+    /// Continues with the targets of an earlier fit where it has one for the same annotation, and with its
+    /// answers if it is still the same threads that were annotated.
+    pub fn resume(&mut self, earlier: &Targets, answers: Option<&Answers>) {
+        self.answers = answers
+            .filter(|answers| answers.groups == self.groups)
+            .map(|answers| answers.by_thread.clone());
         for (group, asked) in self.groups.iter().zip(&mut self.asked) {
             let before = earlier.threads.iter().find(|t| t.annotations == *group);
             let (Some(before), Some(asked)) = (before, asked.as_mut()) else { continue };
@@ -85,6 +100,11 @@ impl<'a> Threads<'a> {
                 *asked = (*asked + given - wanted.clamp(0.0, limit)).clamp(0.0, limit);
             }
         }
+    }
+
+    /// The answers, for the next fit.
+    pub fn into_answers(self) -> Option<Answers> {
+        Some(Answers { groups: self.groups, by_thread: self.answers? })
     }
 
     /// Whether the pressures are as near to what was asked as they will come.
@@ -224,10 +244,13 @@ impl<'a> Threads<'a> {
         reached.iter().map(presses).collect()
     }
 
-    fn agree(&self, got: &[f64], counts: &[bool]) -> bool {
-        self.input.annotations.iter().zip(got).zip(counts).all(|((a, &got), &counts)| {
-            !counts || (got - a.kpa).abs() <= (AGREE.0 * a.kpa).max(AGREE.1)
-        })
+    fn agree(&self, got: &[f64], counts: &[bool], within: f64) -> bool {
+        self.input
+            .annotations
+            .iter()
+            .zip(got)
+            .zip(counts)
+            .all(|((a, &got), &counts)| !counts || (got - a.kpa).abs() <= within * a.kpa.max(1.0))
     }
 
     /// Looks again whether pressures that agreed some steps ago still do; if not, they are to be corrected.
@@ -236,7 +259,7 @@ impl<'a> Threads<'a> {
             return false;
         }
         let here = self.reached(coordinates);
-        let agree = self.agree(&self.pressures(&here), &self.counts(&here));
+        let agree = self.agree(&self.pressures(&here), &self.counts(&here), STILL_AGREE);
         self.settled = agree;
         !agree
     }
@@ -255,7 +278,7 @@ impl<'a> Threads<'a> {
         let FitInput { annotations, fabric, pressure_model, .. } = *self.input;
         let got = self.pressures(&here);
         let counts = self.counts(&here);
-        self.agreed = self.agree(&got, &counts);
+        self.agreed = self.agree(&got, &counts, AGREE);
         if self.agreed || self.rounds > MOST_ROUNDS {
             self.settled = last || !self.agreed;
             return false;

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::Solver;
 use super::element::{Element, Order, Springs};
-use super::matrix::Factored;
+use super::matrix::Factor;
 use super::seam::Courses;
 use super::triangles::{Turning, Wanted};
 use crate::fit::{FitError, FitInput};
@@ -33,8 +33,8 @@ pub struct Problem<'a> {
 }
 
 /// A factorized Hessian.
-pub struct Model<'a> {
-    factor: Factored<'a>,
+pub struct Model {
+    factor: Factor,
     /// Along which the sewn edges pull: a force across the course that was factorized would move the
     /// fabric as if nothing held it.
     pub courses: Courses,
@@ -45,16 +45,16 @@ pub struct Model<'a> {
 }
 
 /// A factorized Hessian with the step that it makes.
-pub struct Solved<'a> {
+pub struct Solved {
     /// The Hessian.
-    pub model: Model<'a>,
+    pub model: Model,
     /// Minus the gradient, in N.
     pub downhill: Vec<f64>,
     /// The full step, in mm.
     pub motion: Vec<DVec2>,
 }
 
-impl Model<'_> {
+impl Model {
     /// The room of its factor, for the next one.
     pub fn into_room(self) -> Vec<f64> {
         self.factor.into_room()
@@ -78,13 +78,6 @@ pub struct Room {
     values: Vec<f64>,
     /// Of a factor.
     pub factor: Vec<f64>,
-}
-
-impl Room {
-    /// With the room of an earlier factor.
-    pub fn new(factor: Vec<f64>) -> Self {
-        Self { factor, ..Self::default() }
-    }
 }
 
 impl<'a> Problem<'a> {
@@ -130,25 +123,58 @@ impl<'a> Problem<'a> {
         at: &Place<'_>,
         order: Order,
         room: &mut Room,
-    ) -> Result<Option<Solved<'a>>, FitError> {
-        let Solver { triangles, sewn, matrix, .. } = self.solver;
-        let Room { elements, values, factor } = room;
-        let coordinates = at.coordinates;
-        triangles.elements(coordinates, &self.springs, at.wanted, at.turning, order, elements);
+    ) -> Result<Option<Solved>, FitError> {
+        let Solver { sewn, matrix, .. } = self.solver;
+        let courses = sewn.courses(at.coordinates);
+        self.assemble(at, order, room);
+        let stiffnesses = sewn.stiffnesses(self.input.fabric);
+        for (k, (row, stiffness)) in courses.rows().iter().zip(stiffnesses).enumerate() {
+            matrix.add_square(&mut room.values, k, row, stiffness);
+        }
+        let downhill = self.downhill(at, &courses);
+        let solved = self.factorized(at.coordinates, courses, room, Some(&downhill))?;
+        Ok(solved.map(|(model, pinned)| {
+            let motion = self.freed(&model, &pinned);
+            Solved { model, downhill, motion }
+        }))
+    }
+
+    /// The Hessian without the seams; `None` if that is not positive definite.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn unsewn(&self, at: &Place<'_>, room: &mut Room) -> Result<Option<Model>, FitError> {
+        self.assemble(at, Order::Second, room);
+        let solved = self.factorized(at.coordinates, Courses::default(), room, None)?;
+        Ok(solved.map(|(model, _)| model))
+    }
+
+    /// The triangles' Hessian and what holds the fabric, into the room's values.
+    fn assemble(&self, at: &Place<'_>, order: Order, room: &mut Room) {
+        let Solver { triangles, matrix, .. } = self.solver;
+        let Room { elements, values, .. } = room;
+        triangles.elements(at.coordinates, &self.springs, at.wanted, at.turning, order, elements);
         values.clear();
         values.resize(matrix.len(), 0.0);
         matrix.add_triangles(values, elements);
         let mean = matrix.mean_diagonal(values);
-        for v in 0..coordinates.len() {
+        for v in 0..at.coordinates.len() {
             matrix.add_diagonal(values, v, HOLD * mean);
         }
         matrix.add_diagonal(values, PINNED, PIN * mean);
-        let courses = sewn.courses(coordinates);
-        let stiffnesses = sewn.stiffnesses(self.input.fabric);
-        for (k, (row, stiffness)) in courses.rows().iter().zip(stiffnesses).enumerate() {
-            matrix.add_square(values, k, row, stiffness);
-        }
-        let factor = match matrix.factorize(values, std::mem::take(factor))? {
+    }
+
+    /// The room's values factorized, and the pinned fabric's answer to a force; `None` if they are not
+    /// positive definite.
+    fn factorized(
+        &self,
+        coordinates: &[DVec2],
+        courses: Courses,
+        room: &mut Room,
+        force: Option<&[f64]>,
+    ) -> Result<Option<(Model, Vec<f64>)>, FitError> {
+        let matrix = &self.solver.matrix;
+        let factor = match matrix.factorize(&room.values, std::mem::take(&mut room.factor))? {
             Ok(factor) => factor,
             Err(taken) => {
                 room.factor = taken;
@@ -156,39 +182,22 @@ impl<'a> Problem<'a> {
             }
         };
         let (row, slide) = (self.lean(coordinates.len()), self.shares(coordinates));
-        let downhill = self.downhill(at, &courses);
-        let mut solutions = factor.solve(&[&row, &slide, &downhill]).into_iter();
+        let mut right: Vec<&[f64]> = vec![&row, &slide];
+        right.extend(force);
+        let mut solutions = matrix.solve(&factor, &right).into_iter();
         let mut next = || solutions.next().unwrap_or_default();
         let (upright, slide, pinned) = (next(), next(), next());
-        let model = Model { factor, courses, upright, slide };
-        let motion = self.freed(&model, &pinned);
-        Ok(Some(Solved { model, downhill, motion }))
+        Ok(Some((Model { factor, courses, upright, slide }, pinned)))
     }
 
-    /// The Hessian of a kept room without its seams; `None` if that is not positive definite.
-    ///
-    /// # Errors
-    /// If memory runs out.
-    pub fn unsewn(
-        &self,
-        coordinates: &[DVec2],
-        model: Model<'a>,
-        room: &mut Room,
-    ) -> Result<Option<Model<'a>>, FitError> {
-        let Solver { sewn, matrix, .. } = self.solver;
-        let Model { factor, courses, .. } = model;
-        let stiffnesses = sewn.stiffnesses(self.input.fabric);
-        for (k, (row, stiffness)) in courses.rows().iter().zip(stiffnesses).enumerate() {
-            matrix.add_square(&mut room.values, k, row, -stiffness);
-        }
-        let Ok(factor) = matrix.factorize(&room.values, factor.into_room())? else {
-            return Ok(None);
-        };
-        let (row, slide) = (self.lean(coordinates.len()), self.shares(coordinates));
-        let mut solutions = factor.solve(&[&row, &slide]).into_iter();
-        let mut next = || solutions.next().unwrap_or_default();
-        let (upright, slide) = (next(), next());
-        Ok(Some(Model { factor, courses, upright, slide }))
+    /// Whether a Hessian of that problem serves for this one: the same fabric and the same markers.
+    pub fn like(&self, springs: &Springs, upright: &[(usize, f64)]) -> bool {
+        self.springs == *springs && self.upright == upright
+    }
+
+    /// The row of the markers' constraint, in short.
+    pub fn upright(&self) -> &[(usize, f64)] {
+        &self.upright
     }
 
     /// The row of the markers' constraint.
@@ -208,8 +217,8 @@ impl<'a> Problem<'a> {
     }
 
     /// The motions by which the fabric answers to forces.
-    pub fn answers(&self, model: &Model<'_>, forces: &[&[f64]]) -> Vec<Vec<DVec2>> {
-        let pinned = model.factor.solve(forces);
+    pub fn answers(&self, model: &Model, forces: &[&[f64]]) -> Vec<Vec<DVec2>> {
+        let pinned = self.solver.matrix.solve(&model.factor, forces);
         pinned.iter().map(|pinned| self.freed(model, pinned)).collect()
     }
 
@@ -220,7 +229,7 @@ impl<'a> Problem<'a> {
     /// woven model that slides steadily would bear it. So to the pinned fabric's answer are added
     /// those to the shared force and to the markers' constraint that make the pin bear nothing and the
     /// markers stand upright. The fabric's middle stays where it is.
-    fn freed(&self, model: &Model<'_>, pinned: &[f64]) -> Vec<DVec2> {
+    fn freed(&self, model: &Model, pinned: &[f64]) -> Vec<DVec2> {
         let lean = |x: &[f64]| self.upright.iter().map(|&(i, w)| w * x[i]).sum::<f64>();
         let pin = |x: &[f64]| x[2 * PINNED + 1];
         let (u, s) = (&model.upright, &model.slide);

@@ -1,13 +1,15 @@
 //! The course of a fit: steps until nothing moves any more and the pressures are met.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
-use super::Solver;
 use super::anderson::Anderson;
 use super::element::Order;
 use super::pressures::Threads;
 use super::problem::{Model, Place, Problem, Room, Solved};
 use super::triangles::{Turning, Wanted};
+use super::{Earlier, Kept, Solver};
 use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
 use crate::parameterize::SparseError;
 use crate::pressure::Targets;
@@ -23,6 +25,9 @@ const NEAR_ENERGY: f64 = 0.02;
 /// They are corrected for the first time after a step that moves no vertex by more than this, in mm: the
 /// fabric is then still on its way, and goes to another place at no cost.
 const FIRST_MM: f64 = 35.0;
+
+/// Pressures that agree after a step that moves no vertex by more than this, in mm, are believed until the end.
+const SETTLED_MM: f64 = 0.05;
 
 /// Steps that move no vertex by more than this are taken as they are: what follows the fabric (threads,
 /// turning springs, a seam's course) makes the energy an uncertain judge of them.
@@ -53,7 +58,7 @@ pub struct Run<'a> {
     threads: Threads<'a>,
     history: Vec<HistoryEntry>,
     iterations: u64,
-    model: Option<Model<'a>>,
+    model: Option<Arc<Model>>,
     room: Room,
     anderson: Anderson,
     /// Largest movement of a vertex in the last step, in mm.
@@ -62,6 +67,8 @@ pub struct Run<'a> {
     kept: bool,
     /// Whether it is from a place too far away to serve for another step.
     stale: bool,
+    /// Whether the run began with the Hessian of an earlier fit: it serves as long as steps shrink.
+    resumed: bool,
     /// Whether the last step was a large one.
     far: bool,
 }
@@ -100,26 +107,32 @@ impl<'a> Run<'a> {
     pub fn new(
         solver: &'a Solver,
         input: &'a FitInput<'a>,
-        earlier: Option<&Fit>,
+        earlier: Option<Earlier<'_>>,
         progress: &'a dyn Progress,
     ) -> Self {
-        let start = earlier.map_or(input.omega, |fit| &fit.coordinates);
+        let start = earlier.map_or(input.omega, |earlier| &earlier.fit.coordinates);
         let coordinates = turned_upright(start, input);
         let mut threads = Threads::new(input, &coordinates);
-        if let Some(fit) = earlier {
-            threads.resume(&fit.targets);
+        let problem = Problem::new(solver, input);
+        let mut model = None;
+        if let Some(Earlier { fit, kept }) = earlier {
+            let kept = kept.filter(|kept| problem.like(&kept.springs, &kept.upright));
+            threads.resume(&fit.targets, kept.and_then(|kept| kept.answers.as_ref()));
+            model = kept.map(|kept| Arc::clone(&kept.model));
         }
+        let resumed = model.is_some();
         Self {
-            problem: Problem::new(solver, input),
+            problem,
             progress,
             coordinates,
             threads,
             history: Vec::new(),
             iterations: 0,
-            model: None,
-            room: Room::new(solver.take_room()),
+            resumed,
+            model,
+            room: Room::default(),
             anderson: Anderson::default(),
-            last: if earlier.is_some() { KEPT_MM } else { f64::INFINITY },
+            last: if earlier.is_some() && !resumed { KEPT_MM } else { f64::INFINITY },
             kept: false,
             stale: false,
             far: earlier.is_none(),
@@ -150,7 +163,7 @@ impl<'a> Run<'a> {
             let largest = step.largest;
             let mut corrected = false;
             if !self.threads.settled() && self.ripe(&step) {
-                corrected = self.correct(largest < LAGGING_MM);
+                corrected = self.correct(largest < SETTLED_MM);
             } else {
                 self.threads.follow(&self.coordinates);
             }
@@ -235,7 +248,7 @@ impl<'a> Run<'a> {
                 self.model = Some(model);
                 return Ok(step);
             }
-            self.room.factor = model.into_room();
+            self.make_room(model);
         }
         self.kept = false;
         self.stale = false;
@@ -246,7 +259,7 @@ impl<'a> Run<'a> {
             let at = Place { coordinates: &self.coordinates, wanted, turning };
             let solved = self.problem.model(&at, order, &mut self.room)?;
             if let Some(Solved { model, downhill, motion }) = solved {
-                self.model = Some(model);
+                self.model = Some(Arc::new(model));
                 return Ok(Step::new(motion, &downhill));
             }
         }
@@ -281,7 +294,7 @@ impl<'a> Run<'a> {
             // Armijo's rule with its usual share.
             if value(&there) <= before + 1e-4 * length * step.slope {
                 self.coordinates = there;
-                self.stale = length < 1.0 || step.largest > KEPT_MM;
+                self.stale = length < 1.0 || (step.largest > KEPT_MM && !self.resumed);
                 return true;
             }
             length *= 0.5;
@@ -295,6 +308,14 @@ impl<'a> Run<'a> {
     /// The Hessian no longer serves.
     fn forget(&mut self) {
         if let Some(model) = self.model.take() {
+            self.make_room(model);
+        }
+    }
+
+    /// The room of a Hessian for the next, unless an earlier fit still has it.
+    fn make_room(&mut self, model: Arc<Model>) {
+        self.resumed = false;
+        if let Ok(model) = Arc::try_unwrap(model) {
             self.room.factor = model.into_room();
         }
     }
@@ -328,36 +349,43 @@ impl<'a> Run<'a> {
         corrected
     }
 
-    /// J_E without the condition that sewn edges have equal lengths, in N·mm, where there are any: one
-    /// Newton step after the seams are let go, which is exact to the second order in what they move.
+    /// J_E without the condition that sewn edges have equal lengths, in N·mm, where there are any; and what
+    /// is left to the next fit, if there is to be one.
     ///
     /// # Errors
     /// If memory runs out or the job is cancelled.
-    pub fn energy_of_free_seams(mut self) -> Result<Option<f64>, FitError> {
-        let energy = self.let_seams_go();
-        self.forget();
-        self.problem.solver.leave_room(std::mem::take(&mut self.room.factor));
-        energy
+    pub fn finish(mut self, last: bool) -> Result<(Option<f64>, Option<Kept>), FitError> {
+        if last || self.stale {
+            // Its room serves for the Hessian without seams.
+            self.forget();
+        }
+        let energy = self.energy_of_free_seams()?;
+        let Self { model, problem, threads, .. } = self;
+        let kept = model.map(|model| Kept {
+            model,
+            springs: problem.springs,
+            upright: problem.upright().to_vec(),
+            answers: threads.into_answers(),
+        });
+        Ok((energy, kept))
     }
 
-    fn let_seams_go(&mut self) -> Result<Option<f64>, FitError> {
+    /// One Newton step after the seams are let go, which is exact to the second order in what they move.
+    fn energy_of_free_seams(&mut self) -> Result<Option<f64>, FitError> {
         let (springs, spacing) = (self.problem.springs, self.problem.input.parameters.spacing);
         let Solver { triangles, sewn, .. } = self.problem.solver;
         if sewn.cliques().is_empty() {
             return Ok(None);
         }
-        let Some(model) = self.model.take() else { return Ok(None) };
         self.ask()?;
-        let Some(model) = self.problem.unsewn(&self.coordinates, model, &mut self.room)? else {
-            return Ok(None);
-        };
         let wanted = self.wanted(&self.threads.targets(&self.coordinates));
-        let here = triangles.energy(&self.coordinates, &springs, &wanted, &[]);
         let turning = triangles.turning(&self.coordinates, &springs, &wanted, spacing);
+        let at = Place { coordinates: &self.coordinates, wanted: &wanted, turning: &turning };
+        let Some(model) = self.problem.unsewn(&at, &mut self.room)? else { return Ok(None) };
+        let here = triangles.energy(&self.coordinates, &springs, &wanted, &[]);
         let mut forces = triangles.gradient(&self.coordinates, &springs, &wanted, &turning);
         forces.iter_mut().for_each(|f| *f = -*f);
         let motion = self.problem.answers(&model, &[&forces]).swap_remove(0);
-        self.room.factor = model.into_room();
         let length = triangles.longest_step(&self.coordinates, &motion);
         let there: Vec<DVec2> =
             self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + length * d).collect();

@@ -38,6 +38,7 @@ pub struct Sewn {
 
 /// The courses of the seams at some place: derivatives of every l − r by the coordinates of its
 /// clique's vertices.
+#[derive(Default)]
 pub struct Courses(Vec<Vec<f64>>);
 
 impl Sewn {
