@@ -21,14 +21,16 @@ use crate::pattern::{Pattern, free_edges, pattern};
 use crate::pressure::{Annotation, Brace, Judgement, judge};
 use crate::progress::{Progress, Stage};
 use crate::report::{Report, compose};
-use crate::seams::{CutSurface, Markers, clip, open_to_disk, place};
-use crate::surface::{RawMesh, Surface, SurfaceOptions, Validated, validate};
+use crate::seams::{CutSurface, Markers, clip, open_to_disk, place, select};
+use crate::surface::{RawMesh, Scan, Surface, SurfaceOptions, Validated, validate};
 use crate::units::LengthUnit;
 use crate::warning::Warning;
 
 /// A flattened brace.
 #[derive(Debug, Clone)]
 pub struct Flattening {
+    /// The whole scan, with the way back to the mesh that was given.
+    pub scan: Arc<Scan>,
     /// The cut surface with its seams, in mm.
     pub cut: Arc<CutSurface>,
     /// Pattern coordinates of its vertices, in mm, x along warp, y along weft, the lower left
@@ -95,7 +97,7 @@ pub fn flatten(
 #[derive(Debug)]
 pub struct Prepared {
     /// The whole scan, smoothed if it was noisy.
-    surface: Surface,
+    scan: Arc<Scan>,
     /// What the brace covers.
     region: Surface,
     cut: Arc<CutSurface>,
@@ -128,7 +130,7 @@ impl Prepared {
         progress: &dyn Progress,
     ) -> Result<Self, Error> {
         begin(progress, Stage::Surface)?;
-        let Validated { surface, mut warnings, .. } =
+        let Validated { surface, mut warnings, origin } =
             validate(raw, &surface_options(design, parameters))?;
         let (measures, calm) =
             rayon::join(|| measure(&surface, parameters.girth_step), || calm(&surface, parameters));
@@ -136,11 +138,15 @@ impl Prepared {
         let Calm { smoothed, radius, warning } = calm;
         let surface = smoothed.unwrap_or(surface);
         // The measures are those of the brace too if it covers all of the surface as it was given.
-        let whole = warning.is_none() && design.region.is_empty();
+        let whole = warning.is_none() && design.region.is_empty() && design.region_faces.is_none();
         warnings.extend(warning);
 
         begin(progress, Stage::Region)?;
-        let region = clip(&surface, &design.region)?;
+        let scan = Arc::new(Scan { surface, origin });
+        let selected =
+            design.region_faces.as_ref().map(|faces| select(&scan, faces)).transpose()?;
+        let region = clip(selected.as_ref().map_or(&scan.surface, |s| &s.surface), &design.region)?;
+        warnings.extend(selected.into_iter().flat_map(|selected| selected.warnings));
         warnings.extend(region.warnings);
         let region = region.surface;
 
@@ -158,7 +164,7 @@ impl Prepared {
         };
         let measures = if whole { measures } else { measure(&region, parameters.girth_step) };
         Ok(Self {
-            surface,
+            scan,
             region,
             cut: Arc::new(cut),
             omega: omega.coordinates,
@@ -176,6 +182,7 @@ impl Prepared {
         let (d, p) = (&self.design, &self.parameters);
         [
             ("region", design.region == d.region),
+            ("region_faces", design.region_faces == d.region_faces),
             ("seams", design.seams == d.seams),
             ("facing", design.facing == d.facing),
             ("units", design.unit == d.unit && parameters.units == p.units),
@@ -219,10 +226,11 @@ impl Prepared {
         let (markers, said) = place(&cut, design.orientation)?;
         let mut warnings = self.warnings.clone();
         warnings.extend(said);
+        warnings.extend(design.warnings.iter().cloned());
 
         begin(progress, Stage::Curvature)?;
         let known = earlier.map_or(&[][..], |earlier| &earlier.annotations);
-        let annotations = annotate(&self.surface, &cut, design, parameters, known)?;
+        let annotations = annotate(&self.scan.surface, &cut, design, parameters, known)?;
 
         begin(progress, Stage::Fit)?;
         let omega = upright(&self.omega, &cut.disk, &markers.points)?;
@@ -253,7 +261,7 @@ impl Prepared {
         let judgements =
             judge(&brace, &annotations, &design.fabric, design.pressure_model, parameters);
         let worn = FieldInput {
-            scan: &self.surface,
+            scan: &self.scan.surface,
             disk: &cut.disk,
             coordinates: &coordinates,
             seams: &cut.seams,
@@ -285,7 +293,8 @@ impl Prepared {
         let report = compose(&found, warnings);
         let drawing = draw(&found, &cut, &coordinates, &markers);
         let girths = self.measures.girths.clone();
-        Ok(Flattening { cut, coordinates, field, girths, drawing, report, fit, annotations })
+        let scan = Arc::clone(&self.scan);
+        Ok(Flattening { scan, cut, coordinates, field, girths, drawing, report, fit, annotations })
     }
 
     /// Fits the fabric by the method chosen.

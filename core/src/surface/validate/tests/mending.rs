@@ -8,7 +8,7 @@ fn a_sound_tube_passes_unchanged() {
     let valid = validate(&raw, &OPTIONS).unwrap();
     assert!(valid.warnings.is_empty(), "{:?}", valid.warnings);
     assert_eq!(shape_of(&valid.surface), Shape::Tube);
-    assert_eq!(valid.source, (0..raw.points.len()).collect::<Vec<_>>());
+    assert_eq!(valid.origin.source, (0..raw.points.len()).collect::<Vec<_>>());
     assert!(is_outward(&valid.surface));
     let off = |(p, q): (&DVec3, &DVec3)| p.distance(*q);
     let most = valid.surface.points().iter().zip(&raw.points).map(off).fold(0.0, f64::max);
@@ -40,7 +40,7 @@ fn keep_largest_drops_crumbs_and_their_defects() {
     let valid = validate(&raw, &SurfaceOptions { keep_largest: true, ..OPTIONS }).unwrap();
     assert_eq!(shape_of(&valid.surface), Shape::Tube);
     assert_eq!(valid.surface.triangle_count(), 80);
-    assert_eq!(valid.source[0], 3);
+    assert_eq!(valid.origin.source[0], 3);
     assert_eq!(codes(&valid), ["components_dropped"]);
     assert_eq!(
         valid.warnings[0].message,
@@ -156,7 +156,7 @@ fn an_stl_tube_is_welded_to_two_loops() {
          their places"
     );
     for v in valid.surface.vertex_ids() {
-        let from = raw.points[valid.source[v.index()]];
+        let from = raw.points[valid.origin.source[v.index()]];
         assert!(valid.surface.point(v).distance(from) < 1e-6);
     }
 }
@@ -252,7 +252,7 @@ fn unused_points_are_dropped_and_said() {
     let valid = validate(&raw, &OPTIONS).unwrap();
     assert_eq!(codes(&valid), ["unused_vertices"]);
     assert_eq!(valid.warnings[0].message, "1 point belongs to no face and was dropped");
-    assert_eq!(valid.source[0], 1);
+    assert_eq!(valid.origin.source[0], 1);
 }
 
 #[test]
