@@ -1073,7 +1073,7 @@ wovenfit_status wovenfit_design_add_seam(struct wovenfit_design *design,
 // `edge_count` edges, in any order.
 //
 // Edges are chained from branch to branch or free end, and their zigzag is drawn straight to within
-// half of an edge's mean length: a seam of zigzags cannot be sewn.
+// an edge's mean length: a seam of zigzags cannot be sewn.
 //
 // One thread at a time.
 wovenfit_status wovenfit_design_add_seams_along_edges(struct wovenfit_design *design,
