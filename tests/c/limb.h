@@ -11,7 +11,8 @@
 
 #include "wovenfit.h"
 
-static int checks = 0;
+/* How many things were checked; each program defines it. */
+extern int checks;
 
 /* Ends the program if a condition does not hold: what follows would build on it. */
 #define CHECK(condition)                                                             \
