@@ -309,6 +309,7 @@ impl Prepared {
             let (fit, run) = solver.fit(input, earlier, progress)?;
             return Ok((fit, Some(run)));
         }
+        guard_nodes(input.omega, input.parameters.spacing)?;
         let rest = diffuse(input, progress)?;
         progress.report(Stage::Mapping, 0.0, None);
         let mapped = Mapping::new(input.disk, &rest.model).vertices().map_err(FitError::from)?;
@@ -316,6 +317,21 @@ impl Prepared {
         let rise = mean_y(&coordinates) - mean_y(&mapped);
         Ok((rest.with_coordinates(coordinates, rise), None))
     }
+}
+
+/// Refuses a grid of threads over the plane that does not fit into memory.
+fn guard_nodes(plane: &[DVec2], spacing: f64) -> Result<(), Error> {
+    /// Of nodes: a whole leg at half a millimetre has a quarter of it; some GB.
+    const MOST_MILLIONS: f64 = 10.0;
+    let high = plane.iter().copied().reduce(DVec2::max).unwrap_or_default();
+    let size = high - to_origin(plane).1;
+    let nodes = size.x * size.y / (spacing * spacing);
+    if nodes <= MOST_MILLIONS * 1e6 {
+        return Ok(());
+    }
+    // Rounded up, so that what is advised is taken.
+    let least = (10.0 * (size.x * size.y / (MOST_MILLIONS * 1e6)).sqrt()).ceil() / 10.0;
+    Err(Error::TooManyNodes { spacing, size, nodes, most: MOST_MILLIONS, least })
 }
 
 /// How the design and the parameters want the triangles read.

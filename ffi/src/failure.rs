@@ -54,6 +54,7 @@ impl From<wovenfit_core::Error> for Failure {
             Core::Parameterize(_) => Status::Parameterization,
             Core::Fit(_) => Status::Fit,
             Core::Mapping(_) => Status::Mapping,
+            Core::TooManyNodes { .. } => Status::TooLarge,
             Core::PreparedForAnother { .. } => Status::PreparedForAnother,
             Core::Cancelled => Status::Cancelled,
         };

@@ -133,7 +133,8 @@ impl<'a> Transfer<'a> {
     /// Weights of a triangle's corners as those of the face that it came from.
     fn in_face(&self, face: usize, triangle: TriangleId, weights: DVec3) -> Option<[f64; 3]> {
         let corners = self.corners_in(face, triangle)?;
-        Some(corners.map(|k| weights[k]))
+        // Rounding leaves −1e−17 on an edge.
+        Some(corners.map(|k| weights[k].max(0.0)))
     }
 
     /// For each corner of a face the corner of the triangle that it became.
