@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import threading
 import weakref
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING, ClassVar, Optional
 
 from .calls import free
 
@@ -14,6 +14,17 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from typing_extensions import Self
+
+
+class _Owned:
+    """Frees an object when the last reference to it goes, or when the interpreter ends.
+
+    A handle has one reference, and every call that is under way another: Python counts them.
+    """
+
+    def __init__(self, address: int, function: str) -> None:
+        self.address = address
+        self.finalizer = weakref.finalize(self, free(function), address)
 
 
 class Handle:
@@ -28,40 +39,34 @@ class Handle:
     """The function that frees it."""
 
     def __init__(self, address: int) -> None:
-        self._address = address
-        self._finalizer = weakref.finalize(self, free(self._free), address)
-        self._guard = threading.Lock()
-        self._users = 0
-        self._closing = False
+        self._owned: Optional[_Owned] = _Owned(address, self._free)
 
     @contextlib.contextmanager
     def _lent(self) -> Iterator[int]:
         """The address, kept alive for the time of a call."""
-        with self._guard:
-            if self._closing:
-                raise ValueError(f"this {type(self).__name__} is closed")
-            self._users += 1
+        owned = self._owned
+        if owned is None:
+            raise ValueError(f"this {type(self).__name__} is closed")
         try:
-            yield self._address
+            yield owned.address
         finally:
-            with self._guard:
-                self._users -= 1
-                last = self._closing and self._users == 0
-            if last:
-                self._finalizer()
+            # An exception that is kept must not keep the object.
+            del owned
+
+    def _again(self) -> Self:
+        """Another handle of the same object, which lives until both are closed."""
+        twin = type(self).__new__(type(self))
+        vars(twin).update(vars(self))
+        return twin
 
     def close(self) -> None:
         """Frees the object; it can be used no more. Closing it again does nothing."""
-        with self._guard:
-            self._closing = True
-            unused = self._users == 0
-        if unused:
-            self._finalizer()
+        self._owned = None
 
     @property
     def closed(self) -> bool:
         """Whether it was closed."""
-        return self._closing
+        return self._owned is None
 
     def __enter__(self) -> Self:
         return self

@@ -66,9 +66,9 @@ class Job(Handle):
             wishes = held.enter_context(lent(design))
             values = held.enter_context(lent(parameters))
             super().__init__(calls.new("wovenfit_job_start", given, wishes, values))
-            # For the defects, if there are any; the caller may change his.
+            # For the defects, if there are any; the caller may change and close his.
             then = design.copy(), None if parameters is None else parameters.copy()
-        self._checked = (mesh, *then)
+        self._checked = (mesh._again(), *then)
 
     @classmethod
     def _on(
