@@ -389,7 +389,7 @@ fn what_was_mended_still_knows_where_it_came_from() {
     assert_eq!(valid.origin.faces, (0..inward.polygons.len()).map(Some).collect::<Vec<_>>());
 
     let torn = with_holes(20, &[(5, 8)]);
-    let valid = validate(&torn, &OPTIONS).unwrap();
+    let valid = validate(&torn, &SurfaceOptions { close_holes: 60.0, ..OPTIONS }).unwrap();
     comes_from(&torn, &valid);
     let patch = valid.surface.triangle_count() - torn.polygons.len();
     assert!(patch > 0 && valid.origin.faces.iter().filter(|face| face.is_none()).count() == patch);
