@@ -154,8 +154,8 @@ mod tests {
         let mut count = 0;
         let mut buffer = [9.0; 3];
         let values = [1.0, 2.0, 3.0];
-        let place = buffer.as_mut_ptr();
-        let mut go = |buffer, capacity, count| {
+        let place = (&raw mut buffer).cast::<f64>();
+        let go = |buffer, capacity, count| {
             // SAFETY: buffers of our own, of the sizes stated.
             unsafe { fill(buffer, capacity, count, &values) }.map_err(|failure| failure.status)
         };

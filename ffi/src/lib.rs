@@ -1,8 +1,8 @@
 //! The C ABI of wovenfit: what a host (a CAD program, a script) sees of the core, and all it sees.
 //!
 //! `include/wovenfit.h` is generated from here; its preamble (`preamble.h`) states the conventions
-//! once. A file is one C object. Every entry goes through [`guard`]: it catches panics, turns a
-//! [`Failure`](failure::Failure) into a status and an error object, and is the only way out.
+//! once. A file is one C object. Every entry goes through `guard`: it catches panics, turns a
+//! `Failure` into a status and an error object, and is the only way out.
 //! Nothing here computes geometry; the core does.
 
 #![deny(unsafe_op_in_unsafe_fn)]

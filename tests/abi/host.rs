@@ -2,7 +2,7 @@
 
 use std::ffi::{CString, c_char, c_void};
 use std::path::Path;
-use std::ptr::{null, null_mut};
+use std::ptr::null_mut;
 
 use libloading::Library;
 use support::mesh::Mesh;
@@ -346,7 +346,7 @@ impl Host {
     /// The version's text.
     pub fn version(&self) -> String {
         let version = call!(self, "wovenfit_version", () -> *const c_char,);
-        assert!(version != null());
+        assert!(!version.is_null());
         // SAFETY: a static text with its NUL.
         unsafe { std::ffi::CStr::from_ptr(version) }.to_str().expect("UTF-8").to_owned()
     }

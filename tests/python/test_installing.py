@@ -23,7 +23,8 @@ positions = [[x * r, y * r, z] for z in (60, 40, 20, 0) for r in (40,)
              for x, y in ((1, 0), (.5, .866), (-.5, .866), (-1, 0), (-.5, -.866), (.5, -.866))]
 triangles = [t for k in (0, 6, 12) for i in range(6) for j in [(i + 1) % 6]
              for t in ([k + i, k + 6 + i, k + 6 + j], [k + i, k + 6 + j, k + j])]
-print(wovenfit.version(), round(wovenfit.flatten(positions, triangles, {"pressures": []}).figures.height_mm))
+pattern = wovenfit.flatten(positions, triangles, {"pressures": []})
+print(wovenfit.version(), round(pattern.figures.height_mm))
 """
 
 

@@ -102,12 +102,12 @@ def test_another_abi_is_refused_with_both_numbers(tmp_path: Path) -> None:
 
 def test_a_missing_function_is_named(tmp_path: Path) -> None:
     source = f"unsigned wovenfit_abi_version(void) {{ return {wovenfit.ABI_VERSION}; }}"
-    with pytest.raises(wovenfit.LibraryError, match="lacks a function.*wovenfit_version"):
+    with pytest.raises(wovenfit.LibraryError, match=r"lacks a function.*wovenfit_version"):
         library.open_library(fake(tmp_path, source))
 
 
 def test_the_library_itself_refuses_another_abi() -> None:
-    with pytest.raises(wovenfit.AbiMismatch, match="ABI 99 .* ABI 1"):
+    with pytest.raises(wovenfit.AbiMismatch, match=r"ABI 99 .* ABI 1"):
         calls.call("wovenfit_check_abi", 99)
 
 

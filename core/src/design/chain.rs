@@ -101,9 +101,17 @@ mod tests {
 
     #[test]
     fn a_ring_closes_on_its_first_point() {
-        let points = [p(0.0, 0.0), p(9.0, 0.0), p(9.0, 9.0), p(0.0, 9.0)];
-        let seams = seams_along_edges(&points, &[[0, 1], [1, 2], [2, 3], [3, 0]]);
-        assert_eq!(seams, [[points[0], points[1], points[2], points[3], points[0]]]);
+        // A square of twelve edges: its corners stay.
+        let side = |k: usize| match k {
+            0..3 => p(3.0 * k as f64, 0.0),
+            3..6 => p(9.0, 3.0 * (k - 3) as f64),
+            6..9 => p(9.0 - 3.0 * (k - 6) as f64, 9.0),
+            _ => p(0.0, 9.0 - 3.0 * (k - 9) as f64),
+        };
+        let points: Vec<DVec3> = (0..12).map(side).collect();
+        let edges: Vec<[usize; 2]> = (0..12).map(|k| [k, (k + 1) % 12]).collect();
+        let seams = seams_along_edges(&points, &edges);
+        assert_eq!(seams, [[points[0], points[3], points[6], points[9], points[0]]]);
         assert!(seams_along_edges(&points, &[[1, 1]]).is_empty());
     }
 }

@@ -227,10 +227,8 @@ impl Affine {
         }
         let trace = spread.x_axis.x + spread.y_axis.y;
         // Flatter than 1 to 100: what lies across is rounding, not shape.
-        if !(spread.determinant() > 1e-4 * trace * trace) {
-            return None;
-        }
-        Some(Self { origin: a, axes, from, to, slope: cross * spread.inverse() })
+        let known = spread.determinant() > 1e-4 * trace * trace;
+        known.then(|| Self { origin: a, axes, from, to, slope: cross * spread.inverse() })
     }
 
     fn at(&self, p: DVec3) -> DVec2 {

@@ -350,3 +350,48 @@ fn thin_triangles_of_a_scan_pass() {
     assert_eq!(valid.surface.triangle_count(), 120);
     assert!(valid.warnings.is_empty());
 }
+
+/// Every raw point and face leads to the vertex and triangle that it became.
+fn comes_from(raw: &RawMesh, valid: &Validated) {
+    let (surface, origin) = (&valid.surface, &valid.origin);
+    assert_eq!(origin.vertices.len(), raw.points.len());
+    assert_eq!(origin.face_count, raw.polygons.len());
+    for (p, vertex) in raw.points.iter().zip(&origin.vertices) {
+        assert!(vertex.is_none_or(|v| surface.point(v).distance(*p) < 1e-4));
+    }
+    for (v, &p) in origin.source.iter().enumerate() {
+        assert_eq!(origin.vertices[p], Some(VertexId::new(v)));
+    }
+    for (t, face) in origin.faces.iter().enumerate() {
+        let Some(face) = *face else { continue };
+        let corners: Vec<_> = raw.polygons[face].iter().map(|&p| origin.vertices[p]).collect();
+        let own = surface.triangles()[t];
+        assert!(own.iter().all(|&v| corners.contains(&Some(v))), "{t} {face}");
+    }
+}
+
+#[test]
+fn what_was_mended_still_knows_where_it_came_from() {
+    let largest = SurfaceOptions { keep_largest: true, ..OPTIONS };
+    let crumb = tube_with_crumb();
+    let valid = validate(&crumb, &largest).unwrap();
+    comes_from(&crumb, &valid);
+    assert!(valid.origin.vertices.contains(&None));
+
+    let loose = soup(&tube(10));
+    let valid = validate(&loose, &OPTIONS).unwrap();
+    comes_from(&loose, &valid);
+    assert!(valid.origin.vertices.iter().all(Option::is_some));
+
+    let inward = reversed(tube(10));
+    let valid = validate(&inward, &OPTIONS).unwrap();
+    comes_from(&inward, &valid);
+    assert_eq!(valid.origin.faces, (0..inward.polygons.len()).map(Some).collect::<Vec<_>>());
+
+    let torn = with_holes(20, &[(5, 8)]);
+    let valid = validate(&torn, &SurfaceOptions { close_holes: 60.0, ..OPTIONS }).unwrap();
+    comes_from(&torn, &valid);
+    let patch = valid.surface.triangle_count() - torn.polygons.len();
+    assert!(patch > 0 && valid.origin.faces.iter().filter(|face| face.is_none()).count() == patch);
+    assert_eq!(valid.origin.faces.iter().rev().take_while(|face| face.is_none()).count(), patch);
+}
