@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import gc
+import subprocess
+import sys
 import threading
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 import wovenfit
@@ -136,6 +139,41 @@ def test_closing_a_job_while_others_wait_for_it(
         for one in waiting:
             with pytest.raises(ValueError, match="this Job is closed"):
                 one.result()
+
+
+def test_an_object_stays_for_the_calls_that_are_under_way(mesh: wovenfit.Mesh) -> None:
+    finalizer = mesh._owned.finalizer
+    with mesh._lent():
+        mesh.close()
+        assert finalizer.alive
+    assert not finalizer.alive
+    with pytest.raises(ValueError, match="this Mesh is closed"), mesh._lent():
+        pass
+
+
+def test_an_exception_that_is_kept_keeps_no_object() -> None:
+    design = wovenfit.Design()
+    finalizer = design._owned.finalizer
+    with pytest.raises(wovenfit.DesignError) as kept:
+        design.set("fabric.wrap", 1.0)
+    design.close()
+    assert not finalizer.alive
+    assert "wrap" in str(kept.value)
+
+
+def test_the_interpreter_ends_while_a_job_runs() -> None:
+    script = (
+        "import wovenfit; from limbs import arm; mesh = wovenfit.Mesh(*arm(100_000)); "
+        "job = wovenfit.Job(mesh, wovenfit.Design()); assert not job.done"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        cwd=Path(__file__).parent,
+        check=False,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+    assert (done.returncode, done.stdout) == (0, b"")
 
 
 def test_two_jobs_at_once_give_the_bytes_of_one_after_the_other(limb: Tube) -> None:
