@@ -3,13 +3,12 @@
 use glam::DVec3;
 
 use crate::denoise::{Calm, calm};
-use crate::design::Facing;
+use crate::design::{Design, Facing};
 use crate::geometry::{Curvature, guard_unit, measure};
 use crate::parameters::Parameters;
+use crate::pipeline::surface_options;
 use crate::report::{CheckReport, CurvatureReport, Defect, GirthReport, LoopReport};
-use crate::surface::{
-    DefectKind, RawMesh, Shape, Surface, SurfaceOptions, Validated, shape_of, validate,
-};
+use crate::surface::{DefectKind, RawMesh, Shape, Surface, Validated, shape_of, validate};
 use crate::units::{LengthUnit, PER_M_PER_PER_MM};
 use crate::warning::Warning;
 
@@ -18,13 +17,17 @@ use crate::warning::Warning;
 /// Never fails: what stops flattening is in the report's `defects`.
 #[must_use]
 pub fn check(raw: &RawMesh, facing: Option<Facing>, parameters: &Parameters) -> CheckReport {
-    let unit = parameters.units.unwrap_or(LengthUnit::Millimetre);
-    let options = SurfaceOptions {
-        unit,
-        keep_largest: parameters.keep_largest,
-        close_holes: parameters.close_holes,
-        facing,
-    };
+    check_for(raw, &Design { facing, ..Design::default() }, parameters)
+}
+
+/// Checks a surface as [`flatten`](crate::flatten) would take it with this design, of which the unit
+/// and the facing bear on it.
+///
+/// Never fails: what stops flattening is in the report's `defects`.
+#[must_use]
+pub fn check_for(raw: &RawMesh, design: &Design, parameters: &Parameters) -> CheckReport {
+    let options = surface_options(design, parameters);
+    let unit = options.unit;
     match validate(raw, &options) {
         Ok(validated) => describe(validated, unit, parameters),
         Err(error) => CheckReport {

@@ -1,6 +1,6 @@
 //! Why a limb cannot be flattened: the sum of the stages' errors.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use crate::fit::FitError;
 use crate::geometry::UnitError;
@@ -58,6 +58,24 @@ pub enum Error {
     /// The fabric does not cover the surface.
     #[error(transparent)]
     Mapping(#[from] MappingError),
+    /// Threads so close that their nodes do not fit into memory.
+    #[error(
+        "threads {spacing} mm apart on a pattern of {:.0} × {:.0} mm are {:.0} million nodes; \
+         {most} million are the most: use a spacing of at least {least:.1} mm",
+        size.x, size.y, nodes / 1e6
+    )]
+    TooManyNodes {
+        /// The spacing, in mm.
+        spacing: f64,
+        /// Size of the initial parameterization, in mm.
+        size: DVec2,
+        /// How many nodes a grid over it has.
+        nodes: f64,
+        /// The most, in millions.
+        most: f64,
+        /// A spacing that gives no more, in mm.
+        least: f64,
+    },
     /// A design was solved on a surface that was prepared for another.
     #[error("the surface was prepared with another `{what}`: prepare it anew for this design")]
     PreparedForAnother {

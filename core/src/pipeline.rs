@@ -21,14 +21,16 @@ use crate::pattern::{Pattern, free_edges, pattern};
 use crate::pressure::{Annotation, Brace, Judgement, judge};
 use crate::progress::{Progress, Stage};
 use crate::report::{Report, compose};
-use crate::seams::{CutSurface, Markers, clip, open_to_disk, place};
-use crate::surface::{RawMesh, Surface, SurfaceOptions, Validated, validate};
+use crate::seams::{CutSurface, Markers, clip, open_to_disk, place, select};
+use crate::surface::{RawMesh, Scan, Surface, SurfaceOptions, Validated, validate};
 use crate::units::LengthUnit;
 use crate::warning::Warning;
 
 /// A flattened brace.
 #[derive(Debug, Clone)]
 pub struct Flattening {
+    /// The whole scan, with the way back to the mesh that was given.
+    pub scan: Arc<Scan>,
     /// The cut surface with its seams, in mm.
     pub cut: Arc<CutSurface>,
     /// Pattern coordinates of its vertices, in mm, x along warp, y along weft, the lower left
@@ -98,7 +100,7 @@ pub fn flatten(
 #[derive(Debug)]
 pub struct Prepared {
     /// The whole scan, smoothed if it was noisy.
-    surface: Surface,
+    scan: Arc<Scan>,
     /// What the brace covers.
     region: Surface,
     cut: Arc<CutSurface>,
@@ -134,7 +136,7 @@ impl Prepared {
         progress: &dyn Progress,
     ) -> Result<Self, Error> {
         begin(progress, Stage::Surface)?;
-        let Validated { surface, mut warnings, .. } =
+        let Validated { surface, mut warnings, origin } =
             validate(raw, &surface_options(design, parameters))?;
         let (measures, calm) =
             rayon::join(|| measure(&surface, parameters.girth_step), || calm(&surface, parameters));
@@ -142,11 +144,15 @@ impl Prepared {
         let Calm { smoothed, radius, warning } = calm;
         let surface = smoothed.unwrap_or(surface);
         // The measures are those of the brace too if it covers all of the surface as it was given.
-        let whole = warning.is_none() && design.region.is_empty();
+        let whole = warning.is_none() && design.region.is_empty() && design.region_faces.is_none();
         warnings.extend(warning);
 
         begin(progress, Stage::Region)?;
-        let region = clip(&surface, &design.region)?;
+        let scan = Arc::new(Scan { surface, origin });
+        let selected =
+            design.region_faces.as_ref().map(|faces| select(&scan, faces)).transpose()?;
+        let region = clip(selected.as_ref().map_or(&scan.surface, |s| &s.surface), &design.region)?;
+        warnings.extend(selected.into_iter().flat_map(|selected| selected.warnings));
         warnings.extend(region.warnings);
         let region = region.surface;
 
@@ -159,7 +165,7 @@ impl Prepared {
         let read = Parameters { curvature_radius: radius, ..parameters.clone() };
         let (flat, relief) = rayon::join(
             || initial(&cut.disk, &markers.points),
-            || Relief::new(&surface, &cut.disk, &cut.seams, &read),
+            || Relief::new(&scan.surface, &cut.disk, &cut.seams, &read),
         );
         let omega = flat?;
         warnings.extend(omega.warnings);
@@ -169,7 +175,7 @@ impl Prepared {
         };
         let measures = if whole { measures } else { measure(&region, parameters.girth_step) };
         Ok(Self {
-            surface,
+            scan,
             region,
             cut: Arc::new(cut),
             omega: omega.coordinates,
@@ -189,6 +195,7 @@ impl Prepared {
         let (d, p) = (&self.design, &self.parameters);
         [
             ("region", design.region == d.region),
+            ("region_faces", design.region_faces == d.region_faces),
             ("seams", design.seams == d.seams),
             ("facing", design.facing == d.facing),
             ("units", design.unit == d.unit && parameters.units == p.units),
@@ -232,10 +239,11 @@ impl Prepared {
         let (markers, said) = place(&cut, design.orientation)?;
         let mut warnings = self.warnings.clone();
         warnings.extend(said);
+        warnings.extend(design.warnings.iter().cloned());
 
         begin(progress, Stage::Curvature)?;
         let known = earlier.map_or(&[][..], |earlier| &earlier.annotations);
-        let annotations = annotate(&self.surface, &cut, design, parameters, known)?;
+        let annotations = annotate(&self.scan.surface, &cut, design, parameters, known)?;
 
         begin(progress, Stage::Fit)?;
         let omega = upright(&self.omega, &cut.disk, &markers.points)?;
@@ -298,8 +306,19 @@ impl Prepared {
         let report = compose(&found, warnings);
         let drawing = draw(&found, &cut, &coordinates, &markers);
         let girths = self.measures.girths.clone();
-        let kept = kept.map(Arc::new);
-        Ok(Flattening { cut, coordinates, field, girths, drawing, report, fit, kept, annotations })
+        let (scan, kept) = (Arc::clone(&self.scan), kept.map(Arc::new));
+        Ok(Flattening {
+            scan,
+            cut,
+            coordinates,
+            field,
+            girths,
+            drawing,
+            report,
+            fit,
+            kept,
+            annotations,
+        })
     }
 
     /// Fits the fabric by the method chosen.
@@ -317,6 +336,7 @@ impl Prepared {
             let (fit, run) = solver.fit(input, earlier, progress)?;
             return Ok((fit, Some(run)));
         }
+        guard_nodes(input.omega, input.parameters.spacing)?;
         let rest = diffuse(input, progress)?;
         progress.report(Stage::Mapping, 0.0, None);
         let mapped = Mapping::new(input.disk, &rest.model).vertices().map_err(FitError::from)?;
@@ -324,6 +344,21 @@ impl Prepared {
         let rise = mean_y(&coordinates) - mean_y(&mapped);
         Ok((rest.with_coordinates(coordinates, rise), None))
     }
+}
+
+/// Refuses a grid of threads over the plane that does not fit into memory.
+fn guard_nodes(plane: &[DVec2], spacing: f64) -> Result<(), Error> {
+    /// Of nodes: a whole leg at half a millimetre has a quarter of it; some GB.
+    const MOST_MILLIONS: f64 = 10.0;
+    let high = plane.iter().copied().reduce(DVec2::max).unwrap_or_default();
+    let size = high - to_origin(plane).1;
+    let nodes = size.x * size.y / (spacing * spacing);
+    if nodes <= MOST_MILLIONS * 1e6 {
+        return Ok(());
+    }
+    // Rounded up, so that what is advised is taken.
+    let least = (10.0 * (size.x * size.y / (MOST_MILLIONS * 1e6)).sqrt()).ceil() / 10.0;
+    Err(Error::TooManyNodes { spacing, size, nodes, most: MOST_MILLIONS, least })
 }
 
 /// How the design and the parameters want the triangles read.

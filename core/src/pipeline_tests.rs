@@ -59,3 +59,32 @@ fn what_would_need_another_preparation_is_refused_by_name() {
     let free = Parameters { equal_seams: false, ..parameters.clone() };
     assert!(refused(&limb.design, &free).contains("another `equal-seams`"));
 }
+
+#[test]
+fn other_selected_faces_need_another_preparation() {
+    let limb = sample("forearm", 3000, 0.0).unwrap();
+    let parameters = Parameters::default();
+    let all: Vec<usize> = (0..limb.mesh.polygons.len()).collect();
+    let covering =
+        |faces: &[usize]| Design { region_faces: Some(faces.to_vec()), ..limb.design.clone() };
+    let prepared = Prepared::new(&limb.mesh, &covering(&all), &parameters, &Silent).unwrap();
+    let fewer = covering(&all[1..]);
+    let error = prepared.solve(&fewer, &parameters, None, &Silent).map(|_| ()).unwrap_err();
+    assert_eq!(error, Error::PreparedForAnother { what: "region_faces" });
+    // All faces are the whole scan.
+    let whole = flatten(&limb.mesh, &limb.design, &parameters, &Silent).unwrap();
+    let same = prepared.solve(&covering(&all), &parameters, None, &Silent).unwrap();
+    assert_eq!(gap(&same, &whole), 0.0);
+}
+
+#[test]
+fn more_woven_nodes_than_fit_into_memory_are_refused_with_a_spacing_that_goes() {
+    let plane = [DVec2::new(-1000.0, 0.0), DVec2::new(3000.0, 2000.0)];
+    let text = guard_nodes(&plane, 0.5).unwrap_err().to_string();
+    assert_eq!(
+        text,
+        "threads 0.5 mm apart on a pattern of 4000 × 2000 mm are 32 million nodes; 10 million are \
+         the most: use a spacing of at least 0.9 mm"
+    );
+    assert_eq!(guard_nodes(&plane, 0.9), Ok(()));
+}

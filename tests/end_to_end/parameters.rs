@@ -174,7 +174,10 @@ fn every_parameter_of_the_table_changes_the_result() {
 fn every_wish_of_the_design_changes_the_result() {
     let (mesh, design) = limb();
     let before = results(&mesh, &design, &SHORT);
-    let wishes: [(&str, Value); 10] = [
+    let low = |t: &[usize; 3]| t.iter().all(|&v| mesh.points[v].z < 100.0);
+    let faces: Vec<usize> =
+        (0..mesh.triangles.len()).filter(|&t| low(&mesh.triangles[t])).collect();
+    let wishes: [(&str, Value); 12] = [
         ("/fabric/warp", json!(0.6)),
         ("/fabric/weft", json!(0.6)),
         ("/fabric/diagonal", json!(0.1)),
@@ -185,6 +188,8 @@ fn every_wish_of_the_design_changes_the_result() {
         ("/pressures/0/kpa", json!(1.8)),
         ("/pressures/1/at", json!([42.0 * 0.7f64.cos(), 42.0 * 0.7f64.sin(), 85.0])),
         ("/orientation/1", json!([42.0 * 0.8f64.cos(), 42.0 * 0.8f64.sin(), 5.0])),
+        ("/region", json!([{"point": [0, 0, 100], "normal": [0, 0, -1]}])),
+        ("/region_faces", json!(faces)),
         // Along the back of the limb.
         ("/seams", json!([[[-44.0, 5.0, 0.0], [-44.0, 0.0, 110.0]]])),
     ];

@@ -28,22 +28,38 @@ pub struct Run {
 /// If it does not build.
 pub fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
-    PROGRAM.get_or_init(|| {
-        // target/PROFILE/deps/TEST-hash
-        let test = std::env::current_exe().expect("a test knows its own file");
-        let profile = test.ancestors().nth(2).expect("tests lie in target/PROFILE/deps");
-        let target = profile.parent().expect("a profile lies in target");
-        let release = profile.file_name().is_some_and(|name| name == "release");
-        let mut build = Command::new(env!("CARGO"));
-        build
-            .args(["build", "--quiet", "--package", "wovenfit", "--target-dir"])
-            .arg(target)
-            .args(release.then_some("--release"))
-            .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
-        let built = build.output().expect("cargo runs");
-        assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
-        profile.join(format!("wovenfit{}", std::env::consts::EXE_SUFFIX))
+    PROGRAM
+        .get_or_init(|| built("wovenfit").join(format!("wovenfit{}", std::env::consts::EXE_SUFFIX)))
+}
+
+/// The built shared library, in the profile of the running test.
+///
+/// # Panics
+/// If it does not build.
+pub fn library() -> &'static Path {
+    static LIBRARY: OnceLock<PathBuf> = OnceLock::new();
+    LIBRARY.get_or_init(|| {
+        use std::env::consts::{DLL_PREFIX, DLL_SUFFIX};
+        built("wovenfit-ffi").join(format!("{DLL_PREFIX}wovenfit{DLL_SUFFIX}"))
     })
+}
+
+/// The folder in which a package was built.
+fn built(package: &str) -> PathBuf {
+    // target/PROFILE/deps/TEST-hash
+    let test = std::env::current_exe().expect("a test knows its own file");
+    let profile = test.ancestors().nth(2).expect("tests lie in target/PROFILE/deps");
+    let target = profile.parent().expect("a profile lies in target");
+    let release = profile.file_name().is_some_and(|name| name == "release");
+    let mut build = Command::new(env!("CARGO"));
+    build
+        .args(["build", "--quiet", "--package", package, "--target-dir"])
+        .arg(target)
+        .args(release.then_some("--release"))
+        .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."));
+    let built = build.output().expect("cargo runs");
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    profile.to_path_buf()
 }
 
 /// Runs the program.

@@ -67,6 +67,10 @@ struct DesignFile {
     /// Planes that bound the brace: it covers what lies on the side of all their normals.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     region: Vec<PlaneFile>,
+    /// The faces of the surface's file that the brace covers, counted from 0. With `region` too, what lies in both is covered.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(with = "Vec<usize>", length(min = 1))]
+    region_faces: Option<Vec<usize>>,
     /// Whether the triangles of the surface face away from the body or towards it. Needed only where the shape does not show it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(with = "Facing")]
@@ -218,6 +222,11 @@ pub fn parse(json: &str, surface_unit: Option<LengthUnit>) -> Result<Design, Des
     check::check(&value, &schema(), "")?;
     // From the text, not the value: of a key given twice the value keeps but the last.
     let file: DesignFile = serde_json::from_str(json).map_err(|e| DesignError::from(&e))?;
+    from_file(file, surface_unit)
+}
+
+/// The design of a file whose keys, types and ranges are those of the schema.
+fn from_file(file: DesignFile, surface_unit: Option<LengthUnit>) -> Result<Design, DesignError> {
     let unit = file.units.or(surface_unit).unwrap_or(LengthUnit::Millimetre);
     let place = |p: Point, path: String| position(p, unit, path);
 
@@ -257,6 +266,7 @@ pub fn parse(json: &str, surface_unit: Option<LengthUnit>) -> Result<Design, Des
         orientation,
         seams,
         region,
+        region_faces: file.region_faces,
         facing: file.facing,
         limits: Limits { max_kpa: file.limits.max_kpa, bony: bony.collect::<Result<_, _>>()? },
         piece: Piece {
@@ -264,6 +274,7 @@ pub fn parse(json: &str, surface_unit: Option<LengthUnit>) -> Result<Design, Des
             reference: file.piece.reference,
             date: file.piece.date,
         },
+        warnings: Vec::new(),
     })
 }
 
@@ -411,13 +422,28 @@ fn region_plane(
     Err(DesignError::value(format!("{path}.normal"), shown(plane.normal), remedy))
 }
 
+/// A design file as JSON whose coordinates say their unit, read again after a change.
+pub(super) fn from_value(value: Value) -> Result<Design, DesignError> {
+    check::check(&value, &schema(), "")?;
+    from_file(serde_json::from_value(value).map_err(|e| DesignError::from(&e))?, None)
+}
+
+/// The design file of a design as JSON; numbers keep every bit.
+pub(super) fn to_value(design: &Design) -> Result<Value, DesignError> {
+    serde_json::to_value(design.to_file()).map_err(|e| DesignError::from(&e))
+}
+
 impl Design {
     /// The design as a design file in mm and kPa, with only what is set beside the fabric and the
     /// pressure model; reading it back gives the same design.
     #[must_use]
     pub fn to_json(&self) -> String {
+        json_text(&self.to_file())
+    }
+
+    fn to_file(&self) -> DesignFile {
         let points = |list: &[DVec3]| list.iter().map(DVec3::to_array).collect();
-        json_text(&DesignFile {
+        DesignFile {
             units: Some(LengthUnit::Millimetre),
             fabric: self.fabric.clone().into(),
             pressure_model: self.pressure_model,
@@ -433,6 +459,7 @@ impl Design {
                 .iter()
                 .map(|p| PlaneFile { point: p.point.to_array(), normal: p.normal.to_array() })
                 .collect(),
+            region_faces: self.region_faces.clone(),
             facing: self.facing,
             limits: LimitsFile { max_kpa: self.limits.max_kpa, bony: points(&self.limits.bony) },
             piece: PieceFile {
@@ -440,7 +467,7 @@ impl Design {
                 reference: self.piece.reference.clone(),
                 date: self.piece.date.clone(),
             },
-        })
+        }
     }
 }
 

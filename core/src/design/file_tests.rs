@@ -27,6 +27,7 @@ const WHOLE: &str = r#"{"units":"cm",
   "orientation":[[0,0,20],[0,0,0]],
   "seams":[[[1,0,0],[1,0,10],[1,0,20]]],
   "region":[{"point":[0,0,2],"normal":[0,0,1]}],
+  "region_faces":[4,0,7],
   "facing":"inward",
   "limits":{"max_kpa":6.5,"bony":[[7,8,9]]},
   "piece":{"name":"Elbow","reference":"J 17","date":"2024-05-06"}}"#;
@@ -49,6 +50,7 @@ fn every_key_arrives_in_the_cores_units() {
     // A plane's point is a place and is converted; its normal is a direction and is not.
     assert_eq!(design.region[0].point, DVec3::new(0.0, 0.0, 20.0));
     assert_eq!(design.region[0].normal, DVec3::Z);
+    assert_eq!(design.region_faces.as_deref(), Some(&[4, 0, 7][..]));
     assert_eq!(design.facing, Some(Facing::Inward));
     assert_eq!(design.limits.max_kpa, Some(6.5));
     assert_eq!(design.limits.bony, [DVec3::new(70.0, 80.0, 90.0)]);
@@ -268,6 +270,15 @@ fn places_that_mean_nothing_are_refused() {
          the cut"
     );
     assert_eq!(
+        rest_error(r#""region_faces":[1,-2]"#),
+        "`region_faces[1]` is -2: give a whole number, 0 or more"
+    );
+    assert_eq!(
+        rest_error(r#""region_faces":[]"#),
+        "`region_faces` is []: give a list of 1 or more whole numbers (The faces of the surface's \
+         file that the brace covers, counted from 0)"
+    );
+    assert_eq!(
         rest_error(r#""region":[{"point":[0,0,0],"normal":[0,0,0]}]"#),
         "`region[0].normal` is [0.0,0.0,0.0]: a normal of length zero has no direction; give the \
          direction towards the kept side, for example [0, 0, 1]"
@@ -333,7 +344,7 @@ fn the_schema_describes_every_key_and_forbids_others() {
     assert_eq!(schema["required"], json!(["pressures"]));
     let mut count = 0;
     walk(&schema, "", &mut count);
-    // 10 at the top and 7 + 3 + 2 + 2 + 3 below.
-    assert_eq!(count, 27);
+    // 11 at the top and 7 + 3 + 2 + 2 + 3 below.
+    assert_eq!(count, 28);
     assert!(!schema.to_string().contains("$ref"));
 }

@@ -1,16 +1,22 @@
 //! What the designer wants of one brace, in the core's units (mm, N/mm, kPa).
 
+mod chain;
+mod edit;
 mod error;
 mod file;
+mod painted;
 mod schema;
 
 use glam::DVec3;
 use serde::Serialize;
 
+pub use chain::seams_along_edges;
 pub use error::DesignError;
 pub use file::{parse, schema};
+pub use painted::{APART_MM, MOST_POINTS, Painted, condense};
 
 use crate::units::LengthUnit;
+use crate::warning::Warning;
 
 /// What the designer wants.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -30,12 +36,17 @@ pub struct Design {
     pub seams: Vec<Vec<DVec3>>,
     /// Half-spaces: the brace covers what lies in all of them.
     pub region: Vec<RegionPlane>,
+    /// The faces of the raw mesh that the brace covers, counted from 0; all where there are none. What
+    /// also lies in all half-spaces is kept.
+    pub region_faces: Option<Vec<usize>>,
     /// Whether the triangles face outward as given; `None` where the shape itself shows it.
     pub facing: Option<Facing>,
     /// Limits that are checked.
     pub limits: Limits,
     /// What is written on the piece.
     pub piece: Piece,
+    /// What was done to the wishes before they stood here, for the report; no part of a design file.
+    pub warnings: Vec<Warning>,
 }
 
 /// A linear woven fabric.

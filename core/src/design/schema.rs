@@ -25,6 +25,8 @@ pub(super) fn check(value: &Value, schema: &Value, path: &str) -> Result<(), Des
         (Some("array"), _) => Err(refuse(value, schema, path, &list_wanted(schema))),
         (Some("number"), Value::Number(_)) => check_range(value, schema, path),
         (Some("number"), _) => Err(refuse(value, schema, path, "give a number")),
+        (Some("integer"), Value::Number(number)) if number.is_u64() => Ok(()),
+        (Some("integer"), _) => Err(refuse(value, schema, path, "give a whole number, 0 or more")),
         (Some("string"), Value::String(_)) => Ok(()),
         (Some("string"), _) => Err(refuse(value, schema, path, "give a text in quotes")),
         _ => Ok(()),
@@ -142,6 +144,7 @@ fn list_wanted(schema: &Value) -> String {
     let bound = |key: &str| schema.get(key).and_then(Value::as_u64);
     let of = match schema.pointer("/items/type").and_then(Value::as_str) {
         Some("number") => "numbers",
+        Some("integer") => "whole numbers",
         Some("array") => "points, each [x, y, z]",
         _ => "objects, each { … }",
     };

@@ -44,9 +44,9 @@ pub struct PatternSeam {
 pub fn pattern(cut: &CutSurface, coordinates: &[DVec2]) -> Pattern {
     let disk = &cut.disk;
     let place = |v: VertexId| coordinates[v.index()];
-    let outline: Vec<Vec<DVec2>> = outer_first(disk)
+    let outline: Vec<Vec<DVec2>> = outline(disk)
         .into_iter()
-        .map(|boundary| disk.loop_vertices(boundary).map(place).collect())
+        .map(|boundary| boundary.into_iter().map(place).collect())
         .collect();
     let (low, high) = coordinates
         .iter()
@@ -65,6 +65,12 @@ pub fn pattern(cut: &CutSurface, coordinates: &[DVec2]) -> Pattern {
             .map(|pair| pair.map(|v| disk.point(v)))
             .collect(),
     }
+}
+
+/// The vertices along the boundary's loops: the outer one first, then the cut-outs.
+#[must_use]
+pub fn outline(disk: &Surface) -> Vec<Vec<VertexId>> {
+    outer_first(disk).into_iter().map(|boundary| disk.loop_vertices(boundary).collect()).collect()
 }
 
 /// The boundary half-edges that are not sewn to others.

@@ -39,6 +39,24 @@ pub enum SeamError {
         /// Highest corner of what was there before this plane, in mm.
         high: DVec3,
     },
+    /// A selected face that the mesh does not have.
+    #[error(
+        "region face {face} does not exist: the surface has {count} faces, counted from 0; select the faces of this very mesh"
+    )]
+    NoSuchFace {
+        /// The face.
+        face: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A selection that leaves nothing.
+    #[error(
+        "none of the {selected} selected faces belongs to the surface: select the faces that the brace covers"
+    )]
+    NothingSelected {
+        /// How many were selected.
+        selected: usize,
+    },
     /// A surface without a boundary.
     #[error(
         "the surface is closed: it has no opening through which the limb enters; give two region planes, one across the limb at each end of the brace"

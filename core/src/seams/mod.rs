@@ -1,6 +1,6 @@
 //! Region and seams: from a validated surface to a disk.
 //!
-//! [`clip`] keeps what the brace covers, [`open_to_disk`] cuts it open along smooth seams, and
+//! [`select`] and [`clip`] keep what the brace covers, [`open_to_disk`] cuts it open along smooth seams, and
 //! [`place`] finds the two orientation markers.
 
 mod carve;
@@ -10,6 +10,7 @@ mod error;
 mod markers;
 mod path;
 mod region;
+mod selection;
 mod sewing;
 mod shape;
 mod slivers;
@@ -23,4 +24,5 @@ pub use cut::{CutSurface, Ends, open_to_disk};
 pub use error::{REACH_MM, SeamError};
 pub use markers::{Markers, place};
 pub use region::{Clipped, clip};
+pub use selection::select;
 pub use sewing::Seam;

@@ -102,7 +102,8 @@ fn bounds(points: &[DVec3]) -> (DVec3, DVec3) {
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), &p| (low.min(p), high.max(p)))
 }
 
-fn keep_largest(surface: &Surface) -> Result<Clipped, SeamError> {
+/// The largest piece of a surface, and what was dropped.
+pub(super) fn keep_largest(surface: &Surface) -> Result<Clipped, SeamError> {
     let (component, count) = surface.components();
     if count <= 1 {
         return Ok(Clipped { surface: surface.clone(), warnings: Vec::new() });
@@ -125,7 +126,7 @@ fn keep_largest(surface: &Surface) -> Result<Clipped, SeamError> {
     let warning = Warning::at(
         "region_pieces_dropped",
         format!(
-            "the region planes leave {count} pieces; the largest ({:.0} mm²) is kept, dropped: {}{}",
+            "the region leaves {count} pieces; the largest ({:.0} mm²) is kept, dropped: {}{}",
             area[largest],
             list.join("; "),
             if more > 0 { format!("; and {more} more") } else { String::new() },

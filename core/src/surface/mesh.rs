@@ -26,6 +26,8 @@ pub(super) struct Mesh {
     pub(super) triangles: Vec<[usize; 3]>,
     /// The raw polygon of each triangle.
     pub(super) faces: Vec<usize>,
+    /// The point that each raw point became; `usize::MAX` if none.
+    pub(super) became: Vec<usize>,
 }
 
 impl Mesh {
@@ -58,8 +60,8 @@ impl Mesh {
         if !defects.is_empty() {
             return Err(SurfaceError::new(defects));
         }
-        let source = (0..points.len()).collect();
-        Ok(Self { points, source, triangles, faces })
+        let source: Vec<usize> = (0..points.len()).collect();
+        Ok(Self { became: source.clone(), points, source, triangles, faces })
     }
 
     pub(super) fn report_unused(&self, raw: &RawMesh, warnings: &mut Vec<Warning>) {
@@ -118,6 +120,7 @@ impl Mesh {
         let before = used.iter().filter(|used| **used).count();
         let after = kept.iter().filter(|kept| **kept).count();
         self.triangles.iter_mut().for_each(|t| *t = t.map(|v| map[v]));
+        self.became = map;
         if after < before {
             let message = if soup {
                 format!(
@@ -328,6 +331,7 @@ impl Mesh {
             source.push(self.source[v]);
         }
         self.triangles.iter_mut().for_each(|t| *t = t.map(|v| new[v]));
+        self.became.iter_mut().for_each(|v| *v = new[*v]);
         (self.points, self.source) = (points, source);
     }
 

@@ -22,7 +22,14 @@ const UP_FROM: f64 = 0.618_033_988_749_895;
 
 /// A point of a file in mm, on the grid.
 pub(crate) fn in_mm(point: DVec3, unit: LengthUnit) -> DVec3 {
-    let scale = unit.millimetres() * PER_MM;
+    on_grid(point, unit.millimetres())
+}
+
+/// A point in mm from one in a unit of so many mm, rounded to the grid of a millionth of a
+/// millimetre on which surfaces and designs lie.
+#[must_use]
+pub fn on_grid(point: DVec3, mm_per_unit: f64) -> DVec3 {
+    let scale = mm_per_unit * PER_MM;
     // Adding 0 makes −0 the 0 that it equals.
     DVec3::from_array(
         point.to_array().map(|x| (x * scale + (1.0 - UP_FROM)).floor() / PER_MM + 0.0),

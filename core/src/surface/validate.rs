@@ -13,6 +13,7 @@ use super::connectivity::{Edges, end, start};
 use super::defect::{Defect, SurfaceError};
 use super::index::VertexId;
 use super::mesh::{Mesh, mean};
+use super::origin::Origin;
 use super::raw::RawMesh;
 use super::rounding::{GRID, in_mm};
 use super::topology::Surface;
@@ -56,9 +57,8 @@ pub struct Validated {
     pub surface: Surface,
     /// What was mended or may not be as meant.
     pub warnings: Vec<Warning>,
-    /// For each vertex of the surface the point of the raw mesh that it came from, the first of
-    /// those that were welded. No vertex is new.
-    pub source: Vec<usize>,
+    /// What in the raw mesh it came from.
+    pub origin: Origin,
 }
 
 /// The surface that `raw` means.
@@ -114,7 +114,13 @@ pub fn validate(raw: &RawMesh, options: &SurfaceOptions) -> Result<Validated, Su
     warnings.extend(holes::close(&mesh.points, &mut mesh.triangles, options.close_holes, thinnest));
     let triangles = mesh.triangles.iter().map(|t| t.map(VertexId::new)).collect();
     let surface = Surface::new(mesh.points, triangles).map_err(|e| Defect::fault(&e))?;
-    Ok(Validated { surface, warnings, source: mesh.source })
+    let mut faces: Vec<Option<usize>> = mesh.faces.into_iter().map(Some).collect();
+    // What closes a hole comes last.
+    faces.resize(surface.triangle_count(), None);
+    let became = |v: usize| (v != usize::MAX).then(|| VertexId::new(v));
+    let vertices = mesh.became.into_iter().map(became).collect();
+    let origin = Origin { source: mesh.source, vertices, faces, face_count: raw.polygons.len() };
+    Ok(Validated { surface, warnings, origin })
 }
 
 fn check_elements(raw: &RawMesh, points: &[DVec3]) -> Result<(), SurfaceError> {

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Arg, ArgMatches, Command, value_parser};
+use wovenfit_core::ResultFile;
 use wovenfit_core::design;
 use wovenfit_core::parameters::Parameters;
 use wovenfit_core::report::pressure_table;
@@ -74,7 +75,7 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         output::say(&pressure_table(&flattening.report));
         output::say(&flatten::places(out, &files));
         output::say(&command);
-        let page = out.join(flatten::PAGE);
+        let page = out.join(ResultFile::ReportHtml.name());
         output::say(&format!("\nLook at it in a browser:\n  {}\n", page.display()));
     }
     Ok(ExitCode::SUCCESS)

@@ -7,14 +7,13 @@ use std::time::Instant;
 
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 use serde::Serialize;
-use wovenfit_core::design::{Design, Limits};
-use wovenfit_core::export::{flat_obj, json_text, pattern_svg, worn_obj};
-use wovenfit_core::page::{PageInput, report_html};
+use wovenfit_core::design::Design;
+use wovenfit_core::export::json_text;
 use wovenfit_core::parameters::Parameters;
 use wovenfit_core::report::{PressureReport, Report, pressure_table};
 use wovenfit_core::surface::RawMesh;
 use wovenfit_core::warning::Warning;
-use wovenfit_core::{Flattening, flatten};
+use wovenfit_core::{Flattening, ResultFile, flatten};
 
 use crate::clock::{Clock, StageTimes, peak_mib};
 use crate::exit::Failure;
@@ -172,38 +171,15 @@ pub fn fit(
     result.map(|flattening| (flattening, stages)).map_err(|error| Failure::of(&error))
 }
 
-/// The page that is read first.
-pub const PAGE: &str = "report.html";
-
 /// The files of a pattern.
 pub fn files(flattening: &Flattening, design: &Design) -> Vec<Named> {
-    let Flattening { coordinates, field, girths, drawing, report, .. } = flattening;
-    let disk = flattening.disk();
-    let page = PageInput {
-        disk,
-        coordinates,
-        drawing,
-        report,
-        girths,
-        warp_strain: &field.warp_strain,
-        pressure_kpa: Some(&field.pressure_kpa),
-        limit_kpa: design.limits.max_kpa.unwrap_or(Limits::WARN_KPA),
-    };
+    let text =
+        |file: ResultFile| (file.name().to_owned(), flattening.file(file, design).into_bytes());
     // The meshes while the page's pictures are drawn.
-    let (meshes, page) = thread::scope(|scope| {
-        let page = scope.spawn(|| report_html(&page));
-        let meshes = [worn_obj(disk, coordinates), flat_obj(disk, coordinates)];
-        (meshes, page.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
-    });
-    let [worn, flat] = meshes;
-    [
-        ("worn.obj", worn),
-        ("flat.obj", flat),
-        ("pattern.svg", pattern_svg(drawing)),
-        ("report.json", report.to_json()),
-        (PAGE, page),
-    ]
-    .map(|(name, text)| (name.to_owned(), text.into_bytes()))
+    thread::scope(|scope| {
+        let tasks = ResultFile::ALL.map(|file| scope.spawn(move || text(file)));
+        tasks.map(|task| task.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+    })
     .into()
 }
 

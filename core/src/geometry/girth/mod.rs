@@ -35,6 +35,10 @@ const INSET: f64 = 0.03;
 /// smallest gap that would be counted twice or left out on a tube.
 const ONCE_ROUND: f64 = 0.2;
 
+/// No more girths are measured: one every millimetre of a limb of two metres. What is longer is no
+/// limb, and gets them farther apart.
+const MOST_GIRTHS: f64 = 2000.0;
+
 /// Parts of a step by which the first and last section move inward until they close.
 const SLIDES: usize = 8;
 
@@ -192,6 +196,7 @@ impl<'a> Limb<'a> {
 
     fn girths(&self, step: f64) -> Vec<Girth> {
         let length = self.line.length();
+        let step = step.max(length / MOST_GIRTHS);
         // A plane through the very end only grazes it.
         let margin = self.surface.mean_edge_length().min(0.25 * length);
         // A length just short of a whole number of steps, by rounding or discretisation, is one.

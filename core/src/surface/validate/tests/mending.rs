@@ -8,7 +8,7 @@ fn a_sound_tube_passes_unchanged() {
     let valid = validate(&raw, &OPTIONS).unwrap();
     assert!(valid.warnings.is_empty(), "{:?}", valid.warnings);
     assert_eq!(shape_of(&valid.surface), Shape::Tube);
-    assert_eq!(valid.source, (0..raw.points.len()).collect::<Vec<_>>());
+    assert_eq!(valid.origin.source, (0..raw.points.len()).collect::<Vec<_>>());
     assert!(is_outward(&valid.surface));
     let off = |(p, q): (&DVec3, &DVec3)| p.distance(*q);
     let most = valid.surface.points().iter().zip(&raw.points).map(off).fold(0.0, f64::max);
@@ -40,7 +40,7 @@ fn keep_largest_drops_crumbs_and_their_defects() {
     let valid = validate(&raw, &SurfaceOptions { keep_largest: true, ..OPTIONS }).unwrap();
     assert_eq!(shape_of(&valid.surface), Shape::Tube);
     assert_eq!(valid.surface.triangle_count(), 80);
-    assert_eq!(valid.source[0], 3);
+    assert_eq!(valid.origin.source[0], 3);
     assert_eq!(codes(&valid), ["components_dropped"]);
     assert_eq!(
         valid.warnings[0].message,
@@ -156,7 +156,7 @@ fn an_stl_tube_is_welded_to_two_loops() {
          their places"
     );
     for v in valid.surface.vertex_ids() {
-        let from = raw.points[valid.source[v.index()]];
+        let from = raw.points[valid.origin.source[v.index()]];
         assert!(valid.surface.point(v).distance(from) < 1e-6);
     }
 }
@@ -252,7 +252,7 @@ fn unused_points_are_dropped_and_said() {
     let valid = validate(&raw, &OPTIONS).unwrap();
     assert_eq!(codes(&valid), ["unused_vertices"]);
     assert_eq!(valid.warnings[0].message, "1 point belongs to no face and was dropped");
-    assert_eq!(valid.source[0], 1);
+    assert_eq!(valid.origin.source[0], 1);
 }
 
 #[test]
@@ -349,4 +349,49 @@ fn thin_triangles_of_a_scan_pass() {
     let valid = validate(&raw, &OPTIONS).unwrap();
     assert_eq!(valid.surface.triangle_count(), 120);
     assert!(valid.warnings.is_empty());
+}
+
+/// Every raw point and face leads to the vertex and triangle that it became.
+fn comes_from(raw: &RawMesh, valid: &Validated) {
+    let (surface, origin) = (&valid.surface, &valid.origin);
+    assert_eq!(origin.vertices.len(), raw.points.len());
+    assert_eq!(origin.face_count, raw.polygons.len());
+    for (p, vertex) in raw.points.iter().zip(&origin.vertices) {
+        assert!(vertex.is_none_or(|v| surface.point(v).distance(*p) < 1e-4));
+    }
+    for (v, &p) in origin.source.iter().enumerate() {
+        assert_eq!(origin.vertices[p], Some(VertexId::new(v)));
+    }
+    for (t, face) in origin.faces.iter().enumerate() {
+        let Some(face) = *face else { continue };
+        let corners: Vec<_> = raw.polygons[face].iter().map(|&p| origin.vertices[p]).collect();
+        let own = surface.triangles()[t];
+        assert!(own.iter().all(|&v| corners.contains(&Some(v))), "{t} {face}");
+    }
+}
+
+#[test]
+fn what_was_mended_still_knows_where_it_came_from() {
+    let largest = SurfaceOptions { keep_largest: true, ..OPTIONS };
+    let crumb = tube_with_crumb();
+    let valid = validate(&crumb, &largest).unwrap();
+    comes_from(&crumb, &valid);
+    assert!(valid.origin.vertices.contains(&None));
+
+    let loose = soup(&tube(10));
+    let valid = validate(&loose, &OPTIONS).unwrap();
+    comes_from(&loose, &valid);
+    assert!(valid.origin.vertices.iter().all(Option::is_some));
+
+    let inward = reversed(tube(10));
+    let valid = validate(&inward, &OPTIONS).unwrap();
+    comes_from(&inward, &valid);
+    assert_eq!(valid.origin.faces, (0..inward.polygons.len()).map(Some).collect::<Vec<_>>());
+
+    let torn = with_holes(20, &[(5, 8)]);
+    let valid = validate(&torn, &SurfaceOptions { close_holes: 60.0, ..OPTIONS }).unwrap();
+    comes_from(&torn, &valid);
+    let patch = valid.surface.triangle_count() - torn.polygons.len();
+    assert!(patch > 0 && valid.origin.faces.iter().filter(|face| face.is_none()).count() == patch);
+    assert_eq!(valid.origin.faces.iter().rev().take_while(|face| face.is_none()).count(), patch);
 }
