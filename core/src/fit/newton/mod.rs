@@ -2,11 +2,12 @@
 //! by Newton steps.
 //!
 //! The same J_E as the woven nodes' (`element`), with nothing to insert, to remove or to interpolate:
-//! the outline is exact and the sparsity never changes. Each step takes the Gauss–Newton matrix with
-//! as much of the second-order part as keeps it positive definite, one sparse Cholesky factorization
-//! (`matrix`), and a line search that never lets a triangle turn over. Sewn edges keep equal lengths
-//! (`seam`), shortened threads do not buckle (`straight`), the markers stay on one weft line as a
-//! linear constraint, and the target strains are corrected until the pressures are met (`pressures`).
+//! the outline is exact and the sparsity never changes. Each step takes the Gauss–Newton matrix, or near
+//! the minimum all of the Hessian made convex by triangle (`element`), one sparse Cholesky
+//! factorization (`matrix`, `multifrontal` along a `dissection`), and a line search that never lets a
+//! triangle turn over. Sewn edges keep equal lengths (`seam`), shortened threads do not buckle
+//! (`straight`), the markers stay on one weft line as a linear constraint, and the target strains are
+//! corrected until the pressures are met (`pressures`).
 //! The row's target strain ε(t) follows the vertices' weft coordinates as they move, and its slope is
 //! part of the derivatives; what follows in turn (the threads through the annotated points, the
 //! directions of the turning springs) is brought up to date before every step.
