@@ -47,11 +47,7 @@ class Handle:
         owned = self._owned
         if owned is None:
             raise ValueError(f"this {type(self).__name__} is closed")
-        try:
-            yield owned.address
-        finally:
-            # An exception that is kept must not keep the object.
-            del owned
+        yield owned.address
 
     def _again(self) -> Self:
         """Another handle of the same object, which lives until both are closed."""
