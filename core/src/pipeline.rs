@@ -121,6 +121,11 @@ pub struct Prepared {
 /// A stage begins.
 fn begin(progress: &dyn Progress, stage: Stage) -> Result<(), Error> {
     progress.report(stage, 0.0, None);
+    go_on(progress)
+}
+
+/// Asks whether to go on: at most some 0.2 s of work lie between two questions at 100,000 triangles.
+fn go_on(progress: &dyn Progress) -> Result<(), Error> {
     if progress.cancelled() { Err(Error::Cancelled) } else { Ok(()) }
 }
 
@@ -138,6 +143,7 @@ impl Prepared {
         begin(progress, Stage::Surface)?;
         let Validated { surface, mut warnings, origin } =
             validate(raw, &surface_options(design, parameters))?;
+        go_on(progress)?;
         let (measures, calm) =
             rayon::join(|| measure(&surface, parameters.girth_step), || calm(&surface, parameters));
         warnings.extend(guard_size(&measures, design.unit, parameters)?);
@@ -168,6 +174,7 @@ impl Prepared {
             || Relief::new(&scan.surface, &cut.disk, &cut.seams, &read),
         );
         let omega = flat?;
+        go_on(progress)?;
         warnings.extend(omega.warnings);
         let solver = match parameters.method {
             Method::Newton => Some(Solver::new(&cut.disk, &cut.seams, parameters.equal_seams)?),
@@ -287,6 +294,7 @@ impl Prepared {
             || everywhere(&worn),
         );
         let (energy_of_free_seams, kept) = finished?;
+        go_on(progress)?;
         let found = Found {
             design,
             parameters: given,
@@ -305,6 +313,8 @@ impl Prepared {
         };
         let report = compose(&found, warnings);
         let drawing = draw(&found, &cut, &coordinates, &markers);
+        // Nobody is given what he has cancelled.
+        go_on(progress)?;
         let girths = self.measures.girths.clone();
         let (scan, kept) = (Arc::clone(&self.scan), kept.map(Arc::new));
         Ok(Flattening {
@@ -338,7 +348,7 @@ impl Prepared {
         }
         guard_nodes(input.omega, input.parameters.spacing)?;
         let rest = diffuse(input, progress)?;
-        progress.report(Stage::Mapping, 0.0, None);
+        begin(progress, Stage::Mapping)?;
         let mapped = Mapping::new(input.disk, &rest.model).vertices().map_err(FitError::from)?;
         let coordinates = upright(&mapped, input.disk, input.markers)?;
         let rise = mean_y(&coordinates) - mean_y(&mapped);
