@@ -267,4 +267,65 @@ mod tests {
         }
         assert!(matrix.factorize(&values, factor.into_room()).unwrap().is_err());
     }
+
+    #[test]
+    fn many_fronts_solve_together_and_give_the_same_bits_on_any_number_of_threads() {
+        // Enough vertices for tasks of their own.
+        let surface =
+            grid(90, 60, true, |x, y| DVec3::new(90.0 * x, 60.0 * y, (7.0 * x * y).sin()));
+        let n = surface.vertex_count();
+        let sewn: Vec<Vec<usize>> = (0..60).map(|k| vec![91 * k, 91 * k + 90]).collect();
+        let matrix = Matrix::new(&surface, &sewn).unwrap();
+        let mut random = 3u64;
+        let mut value = || {
+            random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+            (random >> 40) as f64 / f64::from(1 << 24) - 0.5
+        };
+        let mut entries = Vec::new();
+        let mut elements = Vec::new();
+        for t in surface.triangles() {
+            let b: [f64; 6] = std::array::from_fn(|_| value());
+            let mut stiffness = [0.0; 21];
+            let dof = |i: usize| 2 * t[i / 2].index() + i % 2;
+            for i in 0..6 {
+                for j in 0..6 {
+                    entries.push((dof(i), dof(j), b[i] * b[j]));
+                    stiffness[triangular(i, j)] = b[i] * b[j];
+                }
+            }
+            elements.push(Element { stiffness });
+        }
+        let mut values = vec![0.0; matrix.len()];
+        matrix.add_triangles(&mut values, &elements);
+        let row = [0.4, -0.9, -0.3, 0.8];
+        for (k, pair) in sewn.iter().enumerate() {
+            matrix.add_square(&mut values, k, &row, 50.0);
+            let dof = |i: usize| 2 * pair[i / 2] + i % 2;
+            for i in 0..4 {
+                entries.extend((0..4).map(|j| (dof(i), dof(j), 50.0 * row[i] * row[j])));
+            }
+        }
+        for v in 0..n {
+            matrix.add_diagonal(&mut values, v, 0.1);
+            entries.extend([2 * v, 2 * v + 1].map(|i| (i, i, 0.1)));
+        }
+        let right: Vec<Vec<f64>> = (0..3).map(|_| (0..2 * n).map(|_| value()).collect()).collect();
+        let right: Vec<&[f64]> = right.iter().map(Vec::as_slice).collect();
+        let solve = |threads: usize| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| {
+                let factor = matrix.factorize(&values, Vec::new()).unwrap().ok().unwrap();
+                matrix.solve(&factor, &right)
+            })
+        };
+        let solutions = solve(1);
+        for (x, right) in solutions.iter().zip(&right) {
+            let mut left = vec![0.0; 2 * n];
+            entries.iter().for_each(|&(i, j, a)| left[i] += a * x[j]);
+            let off = left.iter().zip(*right).map(|(l, r)| (l - r).abs()).fold(0.0, f64::max);
+            assert!(off < 1e-9, "{off}");
+        }
+        assert_eq!(solutions, solve(3));
+        assert_eq!(solutions, solve(3));
+    }
 }

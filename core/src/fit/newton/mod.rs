@@ -20,6 +20,7 @@
 
 mod anderson;
 mod dissection;
+mod eigen;
 mod element;
 mod matrix;
 mod multifrontal;
