@@ -39,9 +39,12 @@ const KEPT_MM: f64 = 4.0;
 /// A Hessian is kept while each step shrinks to less than this share of the last.
 const SHRINKS: f64 = 0.5;
 
-/// After steps this small it is kept while they shrink at all: what is left of them comes from what follows
-/// the fabric, and a new Hessian does not make that faster.
+/// After steps this small it is kept unless they grow to twice the last: what is left of them comes from what
+/// follows the fabric, and a new Hessian each time made a barrel's steps grow.
 const LAGGING_MM: f64 = 0.3;
+
+/// See [`LAGGING_MM`].
+const LAGS: f64 = 2.0;
 
 /// After steps this large the next is taken by the Gauss–Newton matrix: far from the minimum the
 /// second-order part is rarely positive and seldom of use.
@@ -242,7 +245,7 @@ impl<'a> Run<'a> {
             let downhill = self.problem.downhill(&at, &model.courses);
             let motion = self.problem.answers(&model, &[&downhill]).swap_remove(0);
             let step = Step::new(motion, &downhill);
-            let shrinks = if self.last < LAGGING_MM { 1.0 } else { SHRINKS };
+            let shrinks = if self.last < LAGGING_MM { LAGS } else { SHRINKS };
             if step.largest < shrinks * self.last {
                 self.kept = true;
                 self.model = Some(model);
