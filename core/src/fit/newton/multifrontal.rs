@@ -347,15 +347,14 @@ impl Multifrontal {
         }
         let Some([a, b]) = front.piece.parts else { return };
         let of = |into: &[u32]| -> Vec<f64> {
-            let locals = local.chunks_exact(rows);
-            locals
-                .flat_map(|local| {
-                    into.iter().flat_map(|&at| {
-                        let at = AXES * at as usize;
-                        [local[at], local[at + 1]]
-                    })
-                })
-                .collect()
+            let mut border = Vec::with_capacity(AXES * into.len() * count);
+            for local in local.chunks_exact(rows) {
+                for &at in into {
+                    let at = AXES * at as usize;
+                    border.extend_from_slice(&local[at..at + AXES]);
+                }
+            }
+            border
         };
         let [of_first, of_second] = [of(&front.into[0]), of(&front.into[1])];
         let left = || self.backward(a as usize, factor, first, count, &of_first);
