@@ -124,7 +124,7 @@ fn begin(progress: &dyn Progress, stage: Stage) -> Result<(), Error> {
     go_on(progress)
 }
 
-/// Asks whether to go on: at most some 0.2 s of work lie between two questions at 100,000 triangles.
+/// Asks whether to go on.
 fn go_on(progress: &dyn Progress) -> Result<(), Error> {
     if progress.cancelled() { Err(Error::Cancelled) } else { Ok(()) }
 }

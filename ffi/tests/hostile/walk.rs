@@ -51,6 +51,7 @@ pub struct Case {
     pub values: Vec<(usize, String)>,
 }
 
+#[allow(unused_imports, reason = "of the users of this file one calls nothing else")]
 pub(crate) use go;
 
 /// Walks a case through everything that takes input; whether it had a result.
