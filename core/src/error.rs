@@ -51,7 +51,7 @@ pub enum Error {
     },
     /// No initial parameterization.
     #[error(transparent)]
-    Parameterize(#[from] ParameterizeError),
+    Parameterize(ParameterizeError),
     /// No fit.
     #[error(transparent)]
     Fit(FitError),
@@ -85,6 +85,15 @@ pub enum Error {
     /// The job was cancelled.
     #[error("cancelled")]
     Cancelled,
+}
+
+impl From<ParameterizeError> for Error {
+    fn from(error: ParameterizeError) -> Self {
+        match error {
+            ParameterizeError::Cancelled => Self::Cancelled,
+            other => Self::Parameterize(other),
+        }
+    }
 }
 
 impl From<FitError> for Error {

@@ -27,6 +27,7 @@ pub mod progress;
 pub mod report;
 pub mod samples;
 pub mod seams;
+pub mod sparse;
 pub mod surface;
 pub mod transfer;
 pub mod units;

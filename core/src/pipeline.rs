@@ -15,13 +15,14 @@ use crate::fit::newton::{self, Kept, Solver};
 use crate::fit::{Fit, FitError, FitInput};
 use crate::geometry::{Curvature, Girth, Locator, Measures, guard_unit, measure};
 use crate::mapping::Mapping;
-use crate::parameterize::{initial, upright};
+use crate::parameterize::{Parameterization, ParameterizeError, initial, upright};
 use crate::parameters::{Method, Parameters};
 use crate::pattern::{Pattern, free_edges, pattern};
 use crate::pressure::{Annotation, Brace, Judgement, judge};
 use crate::progress::{Progress, Stage};
 use crate::report::{Report, compose};
 use crate::seams::{CutSurface, Markers, clip, open_to_disk, place, select};
+use crate::sparse::Matrix;
 use crate::surface::{RawMesh, Scan, Surface, SurfaceOptions, Validated, validate};
 use crate::units::LengthUnit;
 use crate::warning::Warning;
@@ -170,16 +171,11 @@ impl Prepared {
         let (markers, _) = place(&cut, design.orientation)?;
         let read = Parameters { curvature_radius: radius, ..parameters.clone() };
         let (flat, relief) = rayon::join(
-            || initial(&cut.disk, &markers.points),
-            || Relief::new(&scan.surface, &cut.disk, &cut.seams, &read),
+            || laid_flat(&cut, &markers, parameters, progress),
+            || Relief::new(&scan.surface, &cut.disk, &cut.seams, &read, progress),
         );
-        let omega = flat?;
-        go_on(progress)?;
+        let ((omega, solver), relief) = (flat?, relief.ok_or(Error::Cancelled)?);
         warnings.extend(omega.warnings);
-        let solver = match parameters.method {
-            Method::Newton => Some(Solver::new(&cut.disk, &cut.seams, parameters.equal_seams)?),
-            Method::Diffusion => None,
-        };
         let measures = if whole { measures } else { measure(&region, parameters.girth_step) };
         Ok(Self {
             scan,
@@ -353,6 +349,27 @@ impl Prepared {
         let coordinates = upright(&mapped, input.disk, input.markers)?;
         let rise = mean_y(&coordinates) - mean_y(&mapped);
         Ok((rest.with_coordinates(coordinates, rise), None))
+    }
+}
+
+/// The initial parameterization, and what the default fit prepares: both are solved on one matrix.
+fn laid_flat(
+    cut: &CutSurface,
+    markers: &Markers,
+    parameters: &Parameters,
+    progress: &dyn Progress,
+) -> Result<(Parameterization, Option<Solver>), Error> {
+    match parameters.method {
+        Method::Newton => {
+            let solver = Solver::new(&cut.disk, &cut.seams, parameters.equal_seams)?;
+            go_on(progress)?;
+            Ok((initial(&cut.disk, solver.matrix(), &markers.points, progress)?, Some(solver)))
+        }
+        Method::Diffusion => {
+            let matrix = Matrix::new(&cut.disk, &[]).map_err(ParameterizeError::from)?;
+            go_on(progress)?;
+            Ok((initial(&cut.disk, &matrix, &markers.points, progress)?, None))
+        }
     }
 }
 

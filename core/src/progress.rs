@@ -58,3 +58,22 @@ pub struct Silent;
 impl Progress for Silent {
     fn report(&self, _stage: Stage, _fraction: f64, _energy: Option<f64>) {}
 }
+
+/// `f` over all items, some thousand at a time, with the number of the first of them, and a question before
+/// each; none if the job is cancelled.
+pub(crate) fn in_parts<T, R>(
+    items: &[T],
+    progress: &dyn Progress,
+    f: impl Fn(usize, &[T]) -> Vec<R>,
+) -> Option<Vec<R>> {
+    /// Few enough for several questions a second, enough for all threads.
+    const PART: usize = 1024;
+    let mut all = Vec::with_capacity(items.len());
+    for (k, part) in items.chunks(PART).enumerate() {
+        if progress.cancelled() {
+            return None;
+        }
+        all.extend(f(k * PART, part));
+    }
+    Some(all)
+}

@@ -73,7 +73,7 @@ fn a_limb_that_cannot_be_is_refused_unless_the_parameter_says_its_unit() {
     let parameters = host.parameters(&[]);
     let refusal = host.flatten(handle, design, parameters).unwrap_err();
     assert_eq!(refusal.status, 23, "{}", refusal.text);
-    assert!(refusal.text.contains("the file is probably in mm"), "{}", refusal.text);
+    assert!(refusal.text.contains("the coordinates are probably in mm"), "{}", refusal.text);
     host.free("wovenfit_mesh_free", handle);
     host.free("wovenfit_design_free", design);
     host.free("wovenfit_parameters_free", parameters);

@@ -23,6 +23,7 @@ use wovenfit_core::pattern::{free_edges, pattern};
 use wovenfit_core::progress::Silent;
 use wovenfit_core::samples::sample;
 use wovenfit_core::seams::{CutSurface, Markers, clip, open_to_disk, place};
+use wovenfit_core::sparse::Matrix;
 use wovenfit_core::surface::{Format, RawMesh, Surface, SurfaceOptions, read, validate};
 use wovenfit_core::units::LengthUnit;
 use wovenfit_core::weave::{RestLengths, WovenModel, lay};
@@ -50,7 +51,10 @@ fn elbow() -> Elbow {
     let surface = validate(&sample.mesh, &options).expect("the elbow is sound").surface;
     let cut = open_to_disk(&surface, &[]).expect("the elbow is a tube");
     let (markers, _) = place(&cut, sample.design.orientation).expect("its markers are on it");
-    let omega = initial(&cut.disk, &markers.points).expect("it can be laid flat").coordinates;
+    let matrix = Matrix::new(&cut.disk, &[]).expect("it fits");
+    let omega = initial(&cut.disk, &matrix, &markers.points, &Silent)
+        .expect("it can be laid flat")
+        .coordinates;
     Elbow { mesh: sample.mesh, design: sample.design, options, surface, cut, markers, omega }
 }
 
@@ -110,7 +114,7 @@ fn stages(criterion: &mut Criterion) {
         b.iter(|| Curvature::new(&elbow.surface, &parameters).at_vertices());
     });
     group.bench_function("parameterization", |b| {
-        b.iter(|| initial(disk, &elbow.markers.points));
+        b.iter(|| initial(disk, &Matrix::new(disk, &[])?, &elbow.markers.points, &Silent));
     });
     group.bench_function("laying", |b| b.iter(|| lay(disk, &elbow.omega, 5.0)));
     let model = woven(&elbow, 2_000);
@@ -126,10 +130,11 @@ fn stages(criterion: &mut Criterion) {
     group.bench_function("pattern", |b| b.iter(|| pattern(cut, coordinates)));
     let free = free_edges(cut);
     group.bench_function("relief", |b| {
-        b.iter(|| Relief::new(&elbow.surface, disk, &cut.seams, &parameters));
+        b.iter(|| Relief::new(&elbow.surface, disk, &cut.seams, &parameters, &Silent));
     });
     let worn = FieldInput {
-        relief: &Relief::new(&elbow.surface, disk, &cut.seams, &parameters),
+        relief: &Relief::new(&elbow.surface, disk, &cut.seams, &parameters, &Silent)
+            .expect("nobody cancels"),
         disk,
         coordinates,
         free_edges: &free,

@@ -27,13 +27,18 @@
 //! noise leaves bumps wider than that, which no residual shows. At an edge of the scan patches are
 //! one-sided and several times as uncertain as said.
 
+use std::sync::LazyLock;
+
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use super::places::Places;
 use super::sampling::Sampling;
-use crate::geometry::{Curvature, Locator, ScaleCurvature, ScaleFit, ShapeOperator, SurfacePoint};
+use crate::geometry::{
+    Curvature, ExactPlaces, Locator, ScaleCurvature, ScaleFit, ShapeOperator, SurfacePoint,
+};
 use crate::parameters::{CurvatureEstimate, Parameters};
+use crate::progress::{Progress, in_parts};
 use crate::surface::Surface;
 
 /// The smaller radius over which pressure is stated, in mm: about a crest's own.
@@ -122,8 +127,13 @@ pub(super) struct Bending {
 }
 
 impl Bending {
-    /// Curvature of `scan`, the whole surface, at the places.
-    pub(super) fn new(scan: &Surface, places: &Places, parameters: &Parameters) -> Self {
+    /// Curvature of `scan`, the whole surface, at the places; none if the job is cancelled.
+    pub(super) fn new(
+        scan: &Surface,
+        places: &Places,
+        parameters: &Parameters,
+        progress: &dyn Progress,
+    ) -> Option<Self> {
         let mean_edge = scan.mean_edge_length();
         let radius = parameters.curvature_radius;
         let finer = parameters.curvature == CurvatureEstimate::Scale && radius > FINE_RADIUS_MM;
@@ -131,24 +141,31 @@ impl Bending {
             || Sampling::new(places, mean_edge, SPACING_SHARE * radius),
             || finer.then(|| Sampling::new(places, mean_edge, SPACING_SHARE * FINE_RADIUS_MM)),
         );
-        let under = Under::new(scan, places, [Some(&sampling), fine.as_ref()]);
+        if progress.cancelled() {
+            return None;
+        }
+        let under = Under::new(scan, places, [Some(&sampling), fine.as_ref()], progress)?;
         // What is prepared for either is done one after the other.
         let (shapes, fine) = rayon::join(
-            || Curvature::new(scan, parameters).at_all(&under.of(&sampling)),
+            || {
+                let curvature = Curvature::new(scan, parameters);
+                in_parts(&under.of(&sampling), progress, |_, points| curvature.at_all(points))
+            },
             || match &fine {
-                Some(sampling) => read_fine(scan, &under, sampling, mean_edge),
-                None => Err(Unreadable::NotFiner),
+                Some(sampling) => read_fine(scan, &under, sampling, mean_edge, progress),
+                None => Some(Err(Unreadable::NotFiner)),
             },
         );
+        let (shapes, fine) = (shapes?, fine?);
         let normals: Vec<DVec3> = shapes.iter().map(|shape| shape.normal).collect();
         let tensors: Vec<DMat3> = shapes.iter().map(ShapeOperator::tensor).collect();
         let unit = |n: DVec3| n.try_normalize().unwrap_or(DVec3::Z);
-        Self {
+        Some(Self {
             normal: sampling.spread(&normals).into_iter().map(unit).collect(),
             tensor: sampling.spread(&tensors),
             fine,
             sampling,
-        }
+        })
     }
 }
 
@@ -159,18 +176,26 @@ struct Under {
 }
 
 impl Under {
-    fn new(scan: &Surface, places: &Places, samplings: [Option<&Sampling>; 2]) -> Self {
-        let locator = Locator::new(scan);
+    fn new(
+        scan: &Surface,
+        places: &Places,
+        samplings: [Option<&Sampling>; 2],
+        progress: &dyn Progress,
+    ) -> Option<Self> {
+        let vertices = ExactPlaces::new(scan);
+        let locator = LazyLock::new(|| Locator::new(scan));
         let mut wanted = vec![false; places.count()];
         for &seed in samplings.into_iter().flatten().flat_map(|sampling| &sampling.seeds) {
             wanted[seed] = true;
         }
-        let nearest = |place: usize| Some(locator.closest(places.point(place))?.0);
-        let points = (0..places.count())
-            .into_par_iter()
-            .map(|place| if wanted[place] { nearest(place) } else { None })
-            .collect();
-        Self { points }
+        let nearest = |point: DVec3| {
+            vertices.at(point).or_else(|| locator.closest(point).map(|(point, _)| point))
+        };
+        let points = in_parts(&wanted, progress, |first, wanted| {
+            let place = |k: usize| wanted[k].then(|| nearest(places.point(first + k))).flatten();
+            (0..wanted.len()).into_par_iter().map(place).collect()
+        })?;
+        Some(Self { points })
     }
 
     fn of(&self, sampling: &Sampling) -> Vec<SurfacePoint> {
@@ -179,16 +204,23 @@ impl Under {
     }
 }
 
+/// None if the job is cancelled.
 fn read_fine(
     scan: &Surface,
     under: &Under,
     sampling: &Sampling,
     mean_edge: f64,
-) -> Result<Fine, Unreadable> {
+    progress: &dyn Progress,
+) -> Option<Result<Fine, Unreadable>> {
     let curvature = ScaleCurvature::new(scan, FINE_RADIUS_MM);
-    let fits: Vec<Option<ScaleFit>> = curvature
-        .fit_all(&under.of(sampling))
-        .into_iter()
+    let fits = in_parts(&under.of(sampling), progress, |_, points| curvature.fit_all(points))?;
+    Some(fine_of(&fits, sampling, mean_edge))
+}
+
+fn fine_of(fits: &[ScaleFit], sampling: &Sampling, mean_edge: f64) -> Result<Fine, Unreadable> {
+    let fits: Vec<Option<ScaleFit>> = fits
+        .iter()
+        .copied()
         .map(|fit| Some(fit).filter(|f| f.radius_used > 0.0 && f.radius_used <= MOST_GROWN_MM))
         .collect();
     let noise = |fit: &ScaleFit| fit.residual_mm / (1.0 - COEFFICIENTS / fit.points as f64).sqrt();

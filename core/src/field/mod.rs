@@ -36,6 +36,7 @@ pub use summary::{COMPRESSED_BELOW, LIFTING_BELOW_KPA, Peak, RowMean, SKIN_FRICT
 use crate::design::{Fabric, PressureModel};
 use crate::parameters::Parameters;
 use crate::pressure::{LocalCurvature, pressure_kpa};
+use crate::progress::Progress;
 use crate::seams::Seam;
 use crate::surface::{HalfEdgeId, Surface};
 use bending::{Bending, along, mean};
@@ -62,12 +63,18 @@ impl std::fmt::Debug for Relief {
 
 impl Relief {
     /// Reads it from the whole scan, uncut: the limb goes on under the edge of the brace. `parameters`
-    /// give `curvature` and `curvature_radius`.
+    /// give `curvature` and `curvature_radius`. None if the job is cancelled.
     #[must_use]
-    pub fn new(scan: &Surface, disk: &Surface, seams: &[Seam], parameters: &Parameters) -> Self {
+    pub fn new(
+        scan: &Surface,
+        disk: &Surface,
+        seams: &[Seam],
+        parameters: &Parameters,
+        progress: &dyn Progress,
+    ) -> Option<Self> {
         let places = Places::new(disk, seams);
-        let bending = Bending::new(scan, &places, parameters);
-        Self { places, bending, mean_edge: scan.mean_edge_length() }
+        let bending = Bending::new(scan, &places, parameters, progress)?;
+        Some(Self { places, bending, mean_edge: scan.mean_edge_length() })
     }
 }
 

@@ -7,6 +7,7 @@ use glam::{DVec2, DVec3};
 use super::*;
 use crate::geometry::shapes::{grid, noisy};
 use crate::pressure::Stretch;
+use crate::progress::Silent;
 use crate::surface::VertexId;
 
 /// A worn piece of fabric: the surface, its pattern, and what is sewn.
@@ -50,7 +51,7 @@ impl Worn {
             .filter(|&h| !(sewn(self.disk.from(h)) && sewn(self.disk.to(h))))
             .collect();
         everywhere(&FieldInput {
-            relief: &Relief::new(scan, &self.disk, &self.seams, parameters),
+            relief: &Relief::new(scan, &self.disk, &self.seams, parameters, &Silent).unwrap(),
             disk: &self.disk,
             coordinates: &self.coordinates,
             free_edges: &free,
@@ -281,7 +282,7 @@ fn nodal_forces_press_as_the_formula_says() {
     let fabric = fabric(0.5, 0.8);
     let places = Places::new(&worn.disk, &[]);
     let cloth = Cloth::new(&worn.disk, &worn.coordinates);
-    let bending = Bending::new(&worn.disk, &places, &Parameters::default());
+    let bending = Bending::new(&worn.disk, &places, &Parameters::default(), &Silent).unwrap();
     let free: Vec<HalfEdgeId> =
         worn.disk.boundary_loops().iter().flat_map(|l| l.half_edges.clone()).collect();
     let pull = Pull::new(

@@ -18,9 +18,9 @@ pub use history::{HistoryEntry, Stopped, at_plateau};
 use crate::design::{Fabric, PressureModel};
 use crate::geometry::SurfacePoint;
 use crate::mapping::MappingError;
-use crate::parameterize::SparseError;
 use crate::parameters::Parameters;
 use crate::pressure::{Annotation, TargetError, Targets, Woven};
+use crate::sparse::SparseError;
 use crate::surface::Surface;
 
 /// What a fit starts from.

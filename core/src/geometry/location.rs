@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
-use crate::surface::{Surface, TriangleId};
+use crate::surface::{HalfEdgeId, Surface, TriangleId, VertexId};
 
 /// A point on a surface: a triangle and barycentric coordinates in it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -30,6 +30,42 @@ impl SurfacePoint {
         let w = self.barycentric;
         w.x * a + w.y * b + w.z * c
     }
+}
+
+/// The vertices of a surface by their exact places: most of a cut surface's are the scan's own.
+#[derive(Debug)]
+pub struct ExactPlaces<'a> {
+    surface: &'a Surface,
+    /// The vertices, ascending by place.
+    sorted: Vec<VertexId>,
+}
+
+impl<'a> ExactPlaces<'a> {
+    /// Sorts them.
+    #[must_use]
+    pub fn new(surface: &'a Surface) -> Self {
+        let mut sorted: Vec<VertexId> = surface.vertex_ids().collect();
+        sorted.par_sort_unstable_by(|&a, &b| {
+            along_axes(surface.point(a), surface.point(b)).then(a.cmp(&b))
+        });
+        Self { surface, sorted }
+    }
+
+    /// The first vertex at a place, as a point of the first of its triangles.
+    #[must_use]
+    pub fn at(&self, place: DVec3) -> Option<SurfacePoint> {
+        let first =
+            self.sorted.partition_point(|&v| along_axes(self.surface.point(v), place).is_lt());
+        let v = *self.sorted.get(first).filter(|&&v| self.surface.point(v) == place)?;
+        let triangle = self.surface.outgoing(v).map(HalfEdgeId::triangle).min()?;
+        let corner = self.surface.triangle(triangle).iter().position(|&c| c == v)?;
+        Some(SurfacePoint { triangle, barycentric: DVec3::AXES[corner] })
+    }
+}
+
+/// By x, then y, then z.
+fn along_axes(a: DVec3, b: DVec3) -> std::cmp::Ordering {
+    a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.z.total_cmp(&b.z))
 }
 
 /// The barycentric coordinates of the point of triangle `abc` nearest to `p`.
@@ -210,6 +246,18 @@ fn on_curve(place: DVec3) -> u64 {
 mod tests {
     use super::super::shapes::torus_quarter;
     use super::*;
+
+    #[test]
+    fn a_vertex_is_found_by_its_place_and_nothing_else_is() {
+        let s = torus_quarter(80.0, 40.0, 9.0);
+        let (exact, locator) = (ExactPlaces::new(&s), Locator::new(&s));
+        for &place in s.points() {
+            let found = exact.at(place).unwrap();
+            assert_eq!(found.position(&s), place);
+            assert_eq!(found.triangle, locator.closest(place).unwrap().0.triangle);
+            assert_eq!(exact.at(place + DVec3::new(1e-12, 0.0, 0.0)), None);
+        }
+    }
 
     #[test]
     fn the_nearest_point_is_that_of_all_triangles_and_the_first_of_equals() {

@@ -13,6 +13,6 @@ pub use curvature::{
     meyer_mean_and_gaussian,
 };
 pub use girth::{Girth, Measures, UnitError, guard_unit, measure};
-pub use location::{Locator, SurfacePoint, closest_on_triangle};
+pub use location::{ExactPlaces, Locator, SurfacePoint, closest_on_triangle};
 pub use smoothing::{curvature_noise, noise, smooth};
 pub use straightest::{Walk, walk};

@@ -18,7 +18,7 @@ use glam::{DMat2, DVec2};
 use super::intrinsic::at_true_scale;
 use super::quality::{flipped_triangles, outline_crossings, planar};
 use super::rest::{RestTriangle, rest_triangles};
-use super::sparse::{Pattern, SparseError};
+use crate::sparse::{Pattern, SparseError};
 use crate::surface::{BoundaryLoop, HalfEdgeId, Surface};
 
 /// Cotangent weights (sum of two) outside this range are brought into it: the range of angles

@@ -9,7 +9,8 @@
 use glam::DVec2;
 
 use super::rest::rest_triangles;
-use super::sparse::{Pattern, SparseError};
+use crate::progress::Progress;
+use crate::sparse::{Element, Matrix, SparseError};
 use crate::surface::{Surface, VertexId};
 
 /// Two boundary vertices as far apart as any. Pairs within this share of the greatest distance
@@ -17,70 +18,84 @@ use crate::surface::{Surface, VertexId};
 const TIE: f64 = 1e-9;
 
 /// The map of the vertices of a disk, or of a disk with holes, to the plane, in mm, with the
-/// surface's own area in total.
+/// surface's own area in total. `matrix` is that of the surface.
 ///
 /// # Errors
-/// If the system is singular to rounding.
-pub(super) fn intrinsic(surface: &Surface) -> Result<Vec<DVec2>, SparseError> {
+/// If the system is singular to rounding, or the job is cancelled.
+pub(super) fn intrinsic(
+    surface: &Surface,
+    matrix: &Matrix,
+    progress: &dyn Progress,
+) -> Result<Vec<DVec2>, SparseError> {
     let pins = farthest_pair(surface);
-    let n = surface.vertex_count();
-    let mut column = vec![usize::MAX; n];
-    let mut unknowns = 0;
-    for v in surface.vertex_ids().filter(|v| !pins.contains(v)) {
-        column[v.index()] = unknowns;
-        unknowns += 2;
-    }
     let apart = surface.point(pins[0]).distance(surface.point(pins[1]));
-    let mut held = vec![DVec2::ZERO; n];
-    held[pins[1].index()] = DVec2::new(0.0, -apart);
+    let held = [DVec2::ZERO, DVec2::new(0.0, -apart)];
+    let pinned = |v: VertexId| pins.iter().position(|&pin| pin == v).map(|k| held[k]);
 
-    let mut entries = Vec::with_capacity(12 * surface.triangle_count());
-    let mut values = Vec::with_capacity(entries.capacity());
-    let mut right = vec![0.0; unknowns];
-    // Adds `value` at coordinate `a` of vertex i and coordinate `b` of vertex j, both ways.
-    let mut add = |i: VertexId, a: usize, j: VertexId, b: usize, value: f64| {
-        let (row, col) = (column[i.index()], column[j.index()]);
-        match (row == usize::MAX, col == usize::MAX) {
-            (false, false) => {
-                let (row, col) = (row + a, col + b);
-                entries.push((row.max(col), row.min(col)));
-                values.push(value);
-            }
-            (false, true) => right[row + a] -= value * held[j.index()][b],
-            (true, false) => right[col + b] -= value * held[i.index()][a],
-            (true, true) => {}
-        }
-    };
-    for (corners, rest) in surface.triangles().iter().zip(rest_triangles(surface)) {
-        for k in 0..3 {
-            let half = 0.5 * rest.cotangents[k];
-            let (i, j) = (corners[(k + 1) % 3], corners[(k + 2) % 3]);
-            for axis in 0..2 {
-                add(i, axis, j, axis, -half);
-                // The diagonal is symmetric by itself: once, not both ways.
-                for v in [i, j] {
-                    if column[v.index()] != usize::MAX {
-                        add(v, axis, v, axis, half);
+    let mut right = vec![0.0; 2 * surface.vertex_count()];
+    let elements: Vec<Element> = surface
+        .triangles()
+        .iter()
+        .zip(rest_triangles(surface))
+        .map(|(&corners, rest)| {
+            let mut conformal = conformal(rest.cotangents);
+            for (k, place) in corners.map(pinned).into_iter().enumerate() {
+                let Some(place) = place else { continue };
+                for (i, v) in corners.into_iter().enumerate() {
+                    for axis in 0..2 {
+                        let row = &mut conformal[2 * i + axis];
+                        right[2 * v.index() + axis] -=
+                            row[2 * k] * place.x + row[2 * k + 1] * place.y;
+                        (row[2 * k], row[2 * k + 1]) = (0.0, 0.0);
                     }
                 }
+                (conformal[2 * k], conformal[2 * k + 1]) = ([0.0; 6], [0.0; 6]);
             }
-        }
-    }
-    // Twice the area is the sum of x_i y_j − x_j y_i along the boundary.
-    for &h in surface.boundary_loops().iter().flat_map(|l| &l.half_edges) {
-        let (i, j) = (surface.from(h), surface.to(h));
-        add(i, 0, j, 1, -0.5);
-        add(j, 0, i, 1, 0.5);
-    }
-    let solution = Pattern::new(unknowns, &entries)?.factorize(&values)?.solve(&[right]);
-    let coordinates: Vec<DVec2> = surface
-        .vertex_ids()
-        .map(|v| match column[v.index()] {
-            usize::MAX => held[v.index()],
-            c => DVec2::new(solution[0][c], solution[0][c + 1]),
+            let mut lower = (0..6).flat_map(|i| (0..=i).map(move |j| (i, j)));
+            let entry = |(i, j): (usize, usize)| conformal[i][j];
+            Element { stiffness: std::array::from_fn(|_| lower.next().map_or(0.0, entry)) }
         })
         .collect();
+    let mut values = vec![0.0; matrix.entries()];
+    matrix.add_triangles(&mut values, &elements);
+    let mean = matrix.mean_diagonal(&values);
+    for pin in pins {
+        matrix.add_diagonal(&mut values, pin.index(), mean);
+        right[2 * pin.index()] = 0.0;
+        right[2 * pin.index() + 1] = 0.0;
+    }
+    let factor = matrix
+        .factorize(&values, Vec::new(), progress)?
+        .map_err(|_| SparseError::NotPositiveDefinite(pins[0].index()))?;
+    let solution = matrix.solve(&factor, &[&right]).swap_remove(0);
+    let coordinates: Vec<DVec2> = surface
+        .vertex_ids()
+        .zip(solution.chunks_exact(2))
+        .map(|(v, xy)| pinned(v).unwrap_or(DVec2::new(xy[0], xy[1])))
+        .collect();
     Ok(at_true_scale(surface, coordinates))
+}
+
+/// Second derivatives of a triangle's Dirichlet energy minus its area, by x₀, y₀, x₁, y₁, x₂, y₂.
+fn conformal(cotangents: [f64; 3]) -> [[f64; 6]; 6] {
+    let mut a = [[0.0; 6]; 6];
+    for k in 0..3 {
+        let half = 0.5 * cotangents[k];
+        let (i, j) = (2 * ((k + 1) % 3), 2 * ((k + 2) % 3));
+        for axis in 0..2 {
+            let (i, j) = (i + axis, j + axis);
+            a[i][i] += half;
+            a[j][j] += half;
+            a[i][j] -= half;
+            a[j][i] -= half;
+        }
+        // Twice the area is the sum of x_i y_j − x_j y_i over the sides.
+        for (i, j, sign) in [(i, j, -0.5), (j, i, 0.5)] {
+            a[i][j + 1] += sign;
+            a[j + 1][i] += sign;
+        }
+    }
+    a
 }
 
 /// The same map, scaled so that its area is the surface's.

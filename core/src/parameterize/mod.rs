@@ -8,7 +8,6 @@ mod flip_free;
 mod intrinsic;
 mod quality;
 mod rest;
-mod sparse;
 #[cfg(test)]
 mod tests;
 
@@ -17,11 +16,12 @@ pub use quality::{
     MapQuality, crossing_edges, flipped_triangles, map_quality, outline_crossings, signed_area,
 };
 pub(crate) use rest::rest_triangles;
-pub use sparse::{Factor, Pattern, SparseError};
 
 use glam::{DVec2, DVec3};
 
 use crate::geometry::SurfacePoint;
+use crate::progress::Progress;
+use crate::sparse::{Matrix, SparseError};
 use crate::surface::{Surface, TriangleId};
 use crate::warning::Warning;
 
@@ -90,19 +90,25 @@ pub enum ParameterizeError {
     /// The linear system of the flip-free start failed.
     #[error("the surface cannot be laid flat: {0}")]
     System(#[from] SparseError),
+    /// The job was cancelled.
+    #[error("cancelled")]
+    Cancelled,
 }
 
 /// The initial parameterization of a disk, possibly with holes that stay cut-outs, upright by
-/// its markers (the first at the end near the body). The scale r of the paper is not applied.
+/// its markers (the first at the end near the body). `matrix` is the disk's. The scale r of the paper is not
+/// applied.
 ///
 /// A tube passes for a disk with a hole: cut it first.
 ///
 /// # Errors
 /// If the surface is not one disk, the markers fall together, or no map without flipped
-/// triangles exists in floating point.
+/// triangles exists in floating point, or the job is cancelled.
 pub fn initial(
     disk: &Surface,
+    matrix: &Matrix,
     markers: &[SurfacePoint; 2],
+    progress: &dyn Progress,
 ) -> Result<Parameterization, ParameterizeError> {
     let (_, components) = disk.components();
     let (loops, euler) = (disk.boundary_loops().len(), disk.euler_characteristic());
@@ -110,7 +116,11 @@ pub fn initial(
         return Err(ParameterizeError::NotADisk { components, loops, euler });
     }
     let mut warnings = Vec::new();
-    let natural = intrinsic::intrinsic(disk).ok().map(|map| (map_quality(disk, &map), map));
+    let natural =
+        intrinsic::intrinsic(disk, matrix, progress).ok().map(|map| (map_quality(disk, &map), map));
+    if progress.cancelled() {
+        return Err(ParameterizeError::Cancelled);
+    }
     let (quality, map) = match (unusable(disk, natural.as_ref()), natural) {
         (None, Some(usable)) => usable,
         (reason, _) => {

@@ -7,7 +7,15 @@ use glam::{DVec2, DVec3};
 use super::*;
 use crate::geometry::Locator;
 use crate::geometry::shapes::{grid, noisy, torus_point};
+use crate::progress::Silent;
 use crate::surface::VertexId;
+
+fn flat(
+    disk: &Surface,
+    markers: &[SurfacePoint; 2],
+) -> Result<Parameterization, ParameterizeError> {
+    initial(disk, &Matrix::new(disk, &[]).unwrap(), markers, &Silent)
+}
 
 /// Markers at the surface points nearest to two places.
 fn markers(surface: &Surface, places: [DVec3; 2]) -> [SurfacePoint; 2] {
@@ -32,7 +40,7 @@ fn slit_elbow() -> Surface {
 fn a_plane_comes_back_as_itself_upright() {
     let s = grid(20, 30, false, |x, y| DVec3::new(60.0 * x, 5.0, -40.0 * y));
     let m = markers(&s, [DVec3::new(30.0, 5.0, -40.0), DVec3::new(30.0, 5.0, 0.0)]);
-    let p = initial(&s, &m).unwrap();
+    let p = flat(&s, &m).unwrap();
     assert!(p.warnings.is_empty());
     // Seen from outside (−y … the normal is −x × −z): the first marker up, x to its right.
     let normal = s.normal(s.triangle_ids().next().unwrap());
@@ -49,7 +57,7 @@ fn cylinders_and_cones_develop_without_stretch() {
     for (from, to) in [(40.0, 40.0), (45.0, 30.0)] {
         let s = slit_cone(from, to, 120.0);
         let m = markers(&s, [DVec3::new(-to, 0.0, 120.0), DVec3::new(-from, 0.0, 0.0)]);
-        let p = initial(&s, &m).unwrap();
+        let p = flat(&s, &m).unwrap();
         assert!(p.warnings.is_empty());
         assert_eq!((p.quality.flipped, p.quality.crossings), (0, 0));
         assert!(p.quality.stretch_rms < 1e-8, "{:?}", p.quality);
@@ -66,11 +74,11 @@ fn cylinders_and_cones_develop_without_stretch() {
 fn turning_moving_and_another_unit_change_nothing() {
     let s = slit_elbow();
     let m = markers(&s, [DVec3::new(0.0, 130.0, 0.0), DVec3::new(130.0, 0.0, 0.0)]);
-    let p = initial(&s, &m).unwrap();
+    let p = flat(&s, &m).unwrap();
     let turn = glam::DQuat::from_euler(glam::EulerRot::XYZ, 0.3, 1.1, -2.0);
     let moved = |q: DVec3| (turn * (q / 25.4) + DVec3::new(7.0, -3.0, 1.0)) * 25.4;
     let again = s.with_points(s.points().iter().map(|&q| moved(q)).collect());
-    let other = initial(&again, &m).unwrap();
+    let other = flat(&again, &m).unwrap();
     for (a, b) in p.coordinates.iter().zip(&other.coordinates) {
         assert!(a.distance(*b) < 1e-7, "{a} {b}");
     }
@@ -80,7 +88,7 @@ fn turning_moving_and_another_unit_change_nothing() {
 fn a_noisy_bent_tube_starts_without_flips() {
     let s = noisy(&slit_elbow(), 0.4, 3);
     let m = markers(&s, [DVec3::new(0.0, 130.0, 0.0), DVec3::new(130.0, 0.0, 0.0)]);
-    let p = initial(&s, &m).unwrap();
+    let p = flat(&s, &m).unwrap();
     assert_eq!((p.quality.flipped, p.quality.crossings), (0, 0), "{:?}", p.warnings);
     assert!(p.quality.factor_rms < 1.0, "{:?}", p.quality);
 }
@@ -132,11 +140,14 @@ fn finger() -> Surface {
 fn a_finger_that_a_conformal_map_shrinks_is_replaced_and_said() {
     let s = finger();
     let m = markers(&s, [DVec3::new(10.0, 0.0, 5.0), DVec3::new(-10.0, 0.0, 5.0)]);
-    let p = initial(&s, &m).unwrap();
+    let p = flat(&s, &m).unwrap();
     assert_eq!(p.warnings.len(), 1);
     assert_eq!(p.warnings[0].code, "start_replaced");
     assert_eq!((p.quality.flipped, p.quality.crossings), (0, 0));
-    let natural = map_quality(&s, &intrinsic::intrinsic(&s).unwrap());
+    let natural = map_quality(
+        &s,
+        &intrinsic::intrinsic(&s, &Matrix::new(&s, &[]).unwrap(), &Silent).unwrap(),
+    );
     println!("{:?} {natural:?}", p.quality);
     assert!(p.quality.factor_rms < 1e-2 * natural.factor_rms, "{:?} {natural:?}", p.quality);
 }
@@ -167,7 +178,7 @@ fn slivers_give_finite_maps_and_holes_stay_open() {
     let s = Surface::new(points, triangles).unwrap();
     assert_eq!(s.boundary_loops().len(), 2);
     let m = markers(&s, [DVec3::new(30.0, 0.0, 50.0), DVec3::new(30.0, 0.0, 0.0)]);
-    let p = initial(&s, &m).unwrap();
+    let p = flat(&s, &m).unwrap();
     assert!(p.coordinates.iter().all(|q| q.is_finite()));
     assert_eq!((p.quality.flipped, p.quality.crossings), (0, 0));
     assert!(p.quality.stretch_rms < 0.05, "{:?}", p.quality);
@@ -184,9 +195,9 @@ fn a_spiral_that_would_lie_on_itself_is_kept_apart() {
         DVec3::new(radius * angle.cos(), radius * angle.sin(), 10.0 * x)
     });
     let m = markers(&s, [DVec3::new(60.0, 0.0, 0.0), DVec3::new(-60.0, 0.0, 3.7)]);
-    let natural = intrinsic::intrinsic(&s).unwrap();
+    let natural = intrinsic::intrinsic(&s, &Matrix::new(&s, &[]).unwrap(), &Silent).unwrap();
     assert!(outline_crossings(&s, &natural) > 0);
-    let p = initial(&s, &m).unwrap();
+    let p = flat(&s, &m).unwrap();
     assert_eq!(p.warnings[0].code, "start_replaced");
     assert!(p.warnings[0].message.contains("crosses its own outline"));
     assert_eq!((p.quality.flipped, p.quality.crossings), (0, 0));
@@ -198,7 +209,7 @@ fn what_cannot_be_laid_flat_is_refused_with_the_reason() {
     let disk = slit_elbow();
     let place = DVec3::new(130.0, 0.0, 0.0);
     let same = markers(&disk, [place, place]);
-    let error = initial(&disk, &same).unwrap_err();
+    let error = flat(&disk, &same).unwrap_err();
     assert!(matches!(error, ParameterizeError::MarkersCoincide { .. }));
     assert!(error.to_string().contains("(130.0, 0.0, 0.0)"), "{error}");
     let two = Surface::new(
@@ -214,6 +225,6 @@ fn what_cannot_be_laid_flat_is_refused_with_the_reason() {
             .collect(),
     )
     .unwrap();
-    let error = initial(&two, &same).unwrap_err();
+    let error = flat(&two, &same).unwrap_err();
     assert!(matches!(error, ParameterizeError::NotADisk { components: 2, loops: 4, .. }));
 }

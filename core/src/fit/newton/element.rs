@@ -20,6 +20,7 @@
 use glam::DVec2;
 
 use super::eigen::{Square, eigen, positive};
+use crate::sparse::Element;
 
 /// Number of local variables: ∇x (2), ∇y (2), c.
 pub const LOCAL: usize = 5;
@@ -278,13 +279,6 @@ impl Bend {
         }
         Element { stiffness }
     }
-}
-
-/// A triangle's part of the Hessian, in N/mm.
-#[derive(Debug, Clone, Copy)]
-pub struct Element {
-    /// By x₀, y₀, x₁, y₁, x₂, y₂: lower triangle, row by row.
-    pub stiffness: [f64; 21],
 }
 
 #[cfg(test)]

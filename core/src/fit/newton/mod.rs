@@ -4,7 +4,7 @@
 //! The same J_E as the woven nodes' (`element`), with nothing to insert, to remove or to interpolate:
 //! the outline is exact and the sparsity never changes. Each step takes the Gauss–Newton matrix, or near
 //! the minimum all of the Hessian made convex by triangle (`element`), one sparse Cholesky
-//! factorization (`matrix`, `multifrontal` along a `dissection`), and a line search that never lets a
+//! factorization (the crate's `sparse`), and a line search that never lets a
 //! triangle turn over. Sewn edges keep equal lengths (`seam`), shortened threads do not buckle
 //! (`straight`), the markers stay on one weft line as a linear constraint, and the target strains are
 //! corrected until the pressures are met (`pressures`).
@@ -19,11 +19,8 @@
 //! flattened in one piece; the pattern says where.
 
 mod anderson;
-mod dissection;
 mod eigen;
 mod element;
-mod matrix;
-mod multifrontal;
 mod pressures;
 mod problem;
 mod run;
@@ -36,7 +33,6 @@ mod triangles;
 use std::sync::Arc;
 
 use self::element::Springs;
-use self::matrix::Matrix;
 use self::pressures::Answers;
 use self::problem::Model;
 pub use self::run::Run;
@@ -45,6 +41,7 @@ use self::triangles::Triangles;
 use super::{Fit, FitError, FitInput};
 use crate::progress::Progress;
 use crate::seams::Seam;
+use crate::sparse::Matrix;
 use crate::surface::Surface;
 
 /// A prepared surface: what of the fit does not change with pressures, fabric and markers.
@@ -97,6 +94,12 @@ impl Solver {
         let triangles = Triangles::new(disk);
         let shares = triangles.worn_shares(disk.vertex_count());
         Ok(Self { triangles, sewn, matrix, shares })
+    }
+
+    /// The surface's matrix, for what else is solved on it.
+    #[must_use]
+    pub fn matrix(&self) -> &Matrix {
+        &self.matrix
     }
 
     /// The fit from the initial parameterization, or from an earlier fit of the same surface; and its

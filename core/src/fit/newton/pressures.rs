@@ -28,6 +28,9 @@ const EFFORT: f64 = 1e-3;
 /// More threads than this (a painted field) are corrected each by itself, without the others' answer.
 const MOST_SOLVED: usize = 24;
 
+/// Pressures whose answers are solved for together.
+const AT_ONCE: usize = 4;
+
 /// Pressures within this fraction of each other agree, or within this pressure (kPa): a twentieth of what is
 /// promised, so that it hardly matters from where a fit began.
 const AGREE: f64 = 0.001;
@@ -264,8 +267,9 @@ impl<'a> Threads<'a> {
         !agree
     }
 
-    /// Corrects the targets; if they agree at one of the `last` steps they are settled. `answers` gives how the pattern moves when the present targets are replaced
-    /// by each of others. Whether any target changed.
+    /// Corrects the targets; if they agree at one of the `last` steps they are settled. `answers` gives how the
+    /// pattern moves when the present targets are replaced by each of others, or nothing if the job is
+    /// cancelled: then the targets are of no use. Whether any target changed.
     pub fn correct(
         &mut self,
         coordinates: &[DVec2],
@@ -312,7 +316,9 @@ impl<'a> Threads<'a> {
                     group.iter().for_each(|&k| by_annotation[k] = own(k));
                 }
             }
-            for (&(i, step), moved) in solved.iter().zip(answers(&others)) {
+            // A few at a time, between which the job can be cancelled.
+            let moved = others.chunks(AT_ONCE).flat_map(answers);
+            for (&(i, step), moved) in solved.iter().zip(moved) {
                 let there: Vec<DVec2> =
                     coordinates.iter().zip(&moved).map(|(&p, &d)| p + d).collect();
                 for (k, there) in self.pressures(&self.reached(&there)).into_iter().enumerate() {

@@ -3,11 +3,12 @@
 use glam::DVec2;
 
 use super::Solver;
-use super::element::{Element, Order, Springs};
-use super::matrix::Factor;
+use super::element::{Order, Springs};
 use super::seam::Courses;
 use super::triangles::{Turning, Wanted};
 use crate::fit::{FitError, FitInput};
+use crate::progress::Progress;
+use crate::sparse::{Element, SurfaceFactor};
 
 /// Added to the Hessian's diagonal, relative to its mean: it holds the rotation that may cost nothing
 /// and is far below any stiffness of the fabric.
@@ -30,11 +31,13 @@ pub struct Problem<'a> {
     /// The row of the linear constraint on the coordinates (index among x₀, y₀, x₁, …; factor):
     /// difference of the markers' x.
     upright: Vec<(usize, f64)>,
+    /// Whom to tell how far it is.
+    pub progress: &'a dyn Progress,
 }
 
 /// A factorized Hessian.
 pub struct Model {
-    factor: Factor,
+    factor: SurfaceFactor,
     /// Along which the sewn edges pull: a force across the course that was factorized would move the
     /// fabric as if nothing held it.
     pub courses: Courses,
@@ -82,7 +85,7 @@ pub struct Room {
 
 impl<'a> Problem<'a> {
     /// The fit of a solver surface.
-    pub fn new(solver: &'a Solver, input: &'a FitInput<'a>) -> Self {
+    pub fn new(solver: &'a Solver, input: &'a FitInput<'a>, progress: &'a dyn Progress) -> Self {
         let mut upright = Vec::with_capacity(6);
         for (marker, sign) in input.markers.iter().zip([1.0, -1.0]) {
             let weights = marker.barycentric.to_array();
@@ -92,7 +95,15 @@ impl<'a> Problem<'a> {
         }
         let fabric = input.fabric;
         let springs = Springs { warp: fabric.warp, weft: fabric.weft, diagonal: fabric.diagonal };
-        Self { solver, input, springs, upright }
+        Self { solver, input, springs, upright, progress }
+    }
+
+    /// Asks whether to go on.
+    ///
+    /// # Errors
+    /// If the job is cancelled.
+    pub fn ask(&self) -> Result<(), FitError> {
+        if self.progress.cancelled() { Err(FitError::Cancelled) } else { Ok(()) }
     }
 
     /// Energy with turning springs and seams, in N·mm.
@@ -117,7 +128,7 @@ impl<'a> Problem<'a> {
     /// positive definite.
     ///
     /// # Errors
-    /// If memory runs out.
+    /// If memory runs out or the job is cancelled.
     pub fn model(
         &self,
         at: &Place<'_>,
@@ -132,6 +143,7 @@ impl<'a> Problem<'a> {
             matrix.add_square(&mut room.values, k, row, stiffness);
         }
         let downhill = self.downhill(at, &courses);
+        self.ask()?;
         let solved = self.factorized(at.coordinates, courses, room, Some(&downhill))?;
         Ok(solved.map(|(model, pinned)| {
             let motion = self.freed(&model, &pinned);
@@ -142,7 +154,7 @@ impl<'a> Problem<'a> {
     /// The Hessian without the seams; `None` if that is not positive definite.
     ///
     /// # Errors
-    /// If memory runs out.
+    /// If memory runs out or the job is cancelled.
     pub fn unsewn(&self, at: &Place<'_>, room: &mut Room) -> Result<Option<Model>, FitError> {
         self.assemble(at, Order::Second, room);
         let solved = self.factorized(at.coordinates, Courses::default(), room, None)?;
@@ -155,7 +167,7 @@ impl<'a> Problem<'a> {
         let Room { elements, values, .. } = room;
         triangles.elements(at.coordinates, &self.springs, at.wanted, at.turning, order, elements);
         values.clear();
-        values.resize(matrix.len(), 0.0);
+        values.resize(matrix.entries(), 0.0);
         matrix.add_triangles(values, elements);
         let mean = matrix.mean_diagonal(values);
         for v in 0..at.coordinates.len() {
@@ -174,13 +186,16 @@ impl<'a> Problem<'a> {
         force: Option<&[f64]>,
     ) -> Result<Option<(Model, Vec<f64>)>, FitError> {
         let matrix = &self.solver.matrix;
-        let factor = match matrix.factorize(&room.values, std::mem::take(&mut room.factor))? {
+        let taken = std::mem::take(&mut room.factor);
+        let factor = match matrix.factorize(&room.values, taken, self.progress)? {
             Ok(factor) => factor,
             Err(taken) => {
+                self.ask()?;
                 room.factor = taken;
                 return Ok(None);
             }
         };
+        self.ask()?;
         let (row, slide) = (self.lean(coordinates.len()), self.shares(coordinates));
         let mut right: Vec<&[f64]> = vec![&row, &slide];
         right.extend(force);

@@ -11,9 +11,9 @@ use super::problem::{Model, Place, Problem, Room, Solved};
 use super::triangles::{Turning, Wanted};
 use super::{Earlier, Kept, Solver};
 use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
-use crate::parameterize::SparseError;
 use crate::pressure::Targets;
 use crate::progress::{Progress, Stage};
+use crate::sparse::SparseError;
 
 /// Targets are corrected when a step moves no vertex by more than this, in mm, or promises less than this
 /// share of the energy: then most of what is left is local, and a whole thread's strain hardly changes.
@@ -56,7 +56,6 @@ const HALVINGS: usize = 12;
 /// A fit on its way.
 pub struct Run<'a> {
     problem: Problem<'a>,
-    progress: &'a dyn Progress,
     coordinates: Vec<DVec2>,
     threads: Threads<'a>,
     history: Vec<HistoryEntry>,
@@ -116,7 +115,7 @@ impl<'a> Run<'a> {
         let start = earlier.map_or(input.omega, |earlier| &earlier.fit.coordinates);
         let coordinates = turned_upright(start, input);
         let mut threads = Threads::new(input, &coordinates);
-        let problem = Problem::new(solver, input);
+        let problem = Problem::new(solver, input, progress);
         let mut model = None;
         if let Some(Earlier { fit, kept }) = earlier {
             let kept = kept.filter(|kept| problem.like(&kept.springs, &kept.upright));
@@ -126,7 +125,6 @@ impl<'a> Run<'a> {
         let resumed = model.is_some();
         Self {
             problem,
-            progress,
             coordinates,
             threads,
             history: Vec::new(),
@@ -227,16 +225,12 @@ impl<'a> Run<'a> {
         // Steps shrink some tenfold each: the fraction is that of decades.
         let decades = |mm: f64| (mm / parameters.newton_tolerance).max(1.0).log10();
         let done = 1.0 - decades(self.last) / decades(FIRST_MM).max(1.0);
-        self.progress.report(Stage::Fit, done.clamp(0.0, 1.0), Some(misfit.energy));
-    }
-
-    fn ask(&self) -> Result<(), FitError> {
-        if self.progress.cancelled() { Err(FitError::Cancelled) } else { Ok(()) }
+        self.problem.progress.report(Stage::Fit, done.clamp(0.0, 1.0), Some(misfit.energy));
     }
 
     /// The step from here, by the Hessian at hand if that still serves.
     fn step(&mut self, wanted: &Wanted, turning: &[Turning]) -> Result<Step, FitError> {
-        self.ask()?;
+        self.problem.ask()?;
         if self.stale {
             self.forget();
         }
@@ -258,7 +252,7 @@ impl<'a> Run<'a> {
         let orders: &[Order] =
             if self.far { &[Order::First] } else { &[Order::Second, Order::First] };
         for &order in orders {
-            self.ask()?;
+            self.problem.ask()?;
             let at = Place { coordinates: &self.coordinates, wanted, turning };
             let solved = self.problem.model(&at, order, &mut self.room)?;
             if let Some(Solved { model, downhill, motion }) = solved {
@@ -336,11 +330,17 @@ impl<'a> Run<'a> {
         };
         let now = self.threads.targets(coordinates);
         let corrected = self.threads.correct(coordinates, last, |others| {
+            if problem.ask().is_err() {
+                return Vec::new();
+            }
             let here = gradient(&now);
             let forces: Vec<Vec<f64>> = others
                 .iter()
                 .map(|other| here.iter().zip(gradient(other)).map(|(a, b)| a - b).collect())
                 .collect();
+            if problem.ask().is_err() {
+                return Vec::new();
+            }
             let forces: Vec<&[f64]> = forces.iter().map(Vec::as_slice).collect();
             problem.answers(model, &forces)
         });
@@ -380,7 +380,7 @@ impl<'a> Run<'a> {
         if sewn.cliques().is_empty() {
             return Ok(None);
         }
-        self.ask()?;
+        self.problem.ask()?;
         let wanted = self.wanted(&self.threads.targets(&self.coordinates));
         let turning = triangles.turning(&self.coordinates, &springs, &wanted, spacing);
         let at = Place { coordinates: &self.coordinates, wanted: &wanted, turning: &turning };

@@ -4,12 +4,13 @@ use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::element::{
-    Element, Gradients, Order, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
+    Gradients, Order, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
 };
 use super::straight::means;
 use crate::fit::Misfit;
 use crate::parameterize::{first_root, rest_triangles};
 use crate::pressure::{StrainCourse, Targets};
+use crate::sparse::Element;
 use crate::surface::Surface;
 
 /// Fewer triangles than this a task cost more than they save.

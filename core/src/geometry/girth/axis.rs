@@ -3,7 +3,7 @@
 use faer::{Mat, Side};
 use glam::{DMat3, DQuat, DVec3};
 
-use crate::parameterize::{Pattern, SparseError};
+use crate::sparse::{Pattern, SparseError};
 use crate::surface::{HalfEdgeId, Surface, TriangleId, VertexId};
 
 /// Level sets from which a centre line is made.

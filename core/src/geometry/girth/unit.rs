@@ -15,7 +15,7 @@ const TYPICAL_GIRTH_MM: f64 = 250.0;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("girths of {} mm{} are not a limb's (60 to 1500 mm): {}", figure(*.girth_mm),
     if *.unit == LengthUnit::Millimetre { String::new() }
-    else { format!(", reading the file in {},", .unit.symbol()) },
+    else { format!(", reading the coordinates in {},", .unit.symbol()) },
     remedy(*.likely))]
 pub struct UnitError {
     /// The median girth, in mm, with the coordinates read in `unit`.
@@ -38,11 +38,16 @@ fn figure(mm: f64) -> String {
 fn remedy(likely: Option<LengthUnit>) -> String {
     match likely {
         Some(unit) => {
-            format!("the file is probably in {0}; say `--units {0}`", unit.symbol())
+            format!(
+                "the coordinates are probably in {0}: set the unit (`units`) to {0}",
+                unit.symbol()
+            )
         }
-        None => "no unit makes it one; if the surface is right, say its unit with `--units`, for \
-                 example `--units mm`"
-            .to_owned(),
+        None => {
+            "no unit makes it one; if the surface is right, set its unit (`units`) all the same, \
+                 for example to mm"
+                .to_owned()
+        }
     }
 }
 
@@ -99,8 +104,8 @@ mod tests {
         let message = read(1e-3, Millimetre).unwrap_err().to_string();
         assert_eq!(
             message,
-            "girths of 0.25 mm are not a limb's (60 to 1500 mm): the file is probably in m; say \
-             `--units m`"
+            "girths of 0.25 mm are not a limb's (60 to 1500 mm): the coordinates are probably in m: set \
+             the unit (`units`) to m"
         );
         // Millimetres read as metres.
         assert_eq!(read(1000.0, Metre).unwrap_err().likely, Some(Millimetre));

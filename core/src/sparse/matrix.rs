@@ -1,4 +1,4 @@
-//! The sparse symmetric matrix of the fit: two unknowns a vertex, one analysis, many factorizations.
+//! The sparse symmetric matrix of a surface: two unknowns a vertex, one analysis, many factorizations.
 //!
 //! The sparsity is that of the cut surface's edges, with a full block for the vertices of every
 //! further term (an edge of a seam and the one sewn to it). It never changes, so the order of
@@ -6,10 +6,10 @@
 
 use rayon::prelude::*;
 
+use super::cholesky::SparseError;
 use super::dissection::{Dissection, Neighbours};
-use super::element::Element;
 use super::multifrontal::{AXES, BLOCK, Blocks, Multifrontal};
-use crate::parameterize::SparseError;
+use crate::progress::Progress;
 use crate::surface::Surface;
 
 /// The block of two vertices, and whether it stands transposed.
@@ -17,6 +17,13 @@ use crate::surface::Surface;
 struct Block {
     at: u32,
     turned: bool,
+}
+
+/// A triangle's part of a matrix.
+#[derive(Debug, Clone, Copy)]
+pub struct Element {
+    /// By x₀, y₀, x₁, y₁, x₂, y₂: lower triangle, row by row.
+    pub stiffness: [f64; 21],
 }
 
 /// The analysed matrix.
@@ -116,7 +123,7 @@ impl Matrix {
     }
 
     /// Number of values.
-    pub fn len(&self) -> usize {
+    pub fn entries(&self) -> usize {
         BLOCK * self.blocks
     }
 
@@ -171,7 +178,7 @@ impl Matrix {
     }
 
     /// The factorization of these values into the room of an earlier one; the room again if the matrix is
-    /// not positive definite.
+    /// not positive definite, or the job is cancelled.
     ///
     /// # Errors
     /// If memory runs out.
@@ -179,24 +186,25 @@ impl Matrix {
         &self,
         values: &[f64],
         mut factor: Vec<f64>,
-    ) -> Result<Result<Factor, Vec<f64>>, SparseError> {
+        progress: &dyn Progress,
+    ) -> Result<Result<SurfaceFactor, Vec<f64>>, SparseError> {
         let more = self.factors.len().saturating_sub(factor.len());
         factor.try_reserve_exact(more).map_err(|_| SparseError::TooLarge(AXES * self.vertices))?;
         factor.resize(self.factors.len(), 0.0);
-        let positive = self.factors.factorize(values, &mut factor);
-        Ok(if positive { Ok(Factor(factor)) } else { Err(factor) })
+        let positive = self.factors.factorize(values, &mut factor, progress);
+        Ok(if positive { Ok(SurfaceFactor(factor)) } else { Err(factor) })
     }
 
     /// Solutions for right-hand sides, together: reading the factor is what a solve costs.
-    pub fn solve(&self, factor: &Factor, right: &[&[f64]]) -> Vec<Vec<f64>> {
+    pub fn solve(&self, factor: &SurfaceFactor, right: &[&[f64]]) -> Vec<Vec<f64>> {
         self.factors.solve(&factor.0, right)
     }
 }
 
 /// A factorized matrix.
-pub struct Factor(Vec<f64>);
+pub struct SurfaceFactor(Vec<f64>);
 
-impl Factor {
+impl SurfaceFactor {
     /// The room of the factor, for the next one.
     pub fn into_room(self) -> Vec<f64> {
         self.0
@@ -209,6 +217,7 @@ mod tests {
 
     use super::*;
     use crate::geometry::shapes::grid;
+    use crate::progress::Silent;
 
     #[test]
     fn a_system_with_triangles_cliques_and_holds_is_solved() {
@@ -236,7 +245,7 @@ mod tests {
             }
             elements.push(Element { stiffness });
         }
-        let mut values = vec![0.0; matrix.len()];
+        let mut values = vec![0.0; matrix.entries()];
         matrix.add_triangles(&mut values, &elements);
         let row = [0.3, -0.7, 1.1, 0.2];
         matrix.add_square(&mut values, 0, &row, 2.0);
@@ -256,7 +265,7 @@ mod tests {
         let wanted: Vec<f64> = (0..2 * n).map(|i| (i as f64).sin()).collect();
         let right: Vec<f64> =
             dense.iter().map(|row| row.iter().zip(&wanted).map(|(a, b)| a * b).sum()).collect();
-        let factor = matrix.factorize(&values, Vec::new()).unwrap().ok().unwrap();
+        let factor = matrix.factorize(&values, Vec::new(), &Silent).unwrap().ok().unwrap();
         let x = matrix.solve(&factor, &[&right]);
         for (got, want) in x[0].iter().zip(&wanted) {
             assert!((got - want).abs() < 1e-10, "{got} {want}");
@@ -265,7 +274,7 @@ mod tests {
         for v in 0..n {
             matrix.add_diagonal(&mut values, v, -5.0);
         }
-        assert!(matrix.factorize(&values, factor.into_room()).unwrap().is_err());
+        assert!(matrix.factorize(&values, factor.into_room(), &Silent).unwrap().is_err());
     }
 
     #[test]
@@ -295,7 +304,7 @@ mod tests {
             }
             elements.push(Element { stiffness });
         }
-        let mut values = vec![0.0; matrix.len()];
+        let mut values = vec![0.0; matrix.entries()];
         matrix.add_triangles(&mut values, &elements);
         let row = [0.4, -0.9, -0.3, 0.8];
         for (k, pair) in sewn.iter().enumerate() {
@@ -314,7 +323,7 @@ mod tests {
         let solve = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
-                let factor = matrix.factorize(&values, Vec::new()).unwrap().ok().unwrap();
+                let factor = matrix.factorize(&values, Vec::new(), &Silent).unwrap().ok().unwrap();
                 matrix.solve(&factor, &right)
             })
         };

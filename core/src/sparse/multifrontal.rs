@@ -21,6 +21,7 @@ use faer::linalg::triangular_solve::{
 use faer::{Accum, MatMut, MatRef, Par, Spec};
 
 use super::dissection::{Dissection, Neighbours, Piece, both};
+use crate::progress::Progress;
 
 /// Subtrees of fewer vertices than this are not worth a task of their own.
 const PER_TASK: u32 = 1000;
@@ -156,14 +157,24 @@ impl Multifrontal {
     }
 
     /// Factorizes the matrix of these blocks into `factor`, of [`len`](Self::len) numbers; false if it is not
-    /// positive definite.
-    pub fn factorize(&self, blocks: &[f64], factor: &mut [f64]) -> bool {
-        self.fronts.is_empty() || self.eliminate(self.fronts.len() - 1, blocks, factor).is_some()
+    /// positive definite, or the job is cancelled.
+    pub fn factorize(&self, blocks: &[f64], factor: &mut [f64], progress: &dyn Progress) -> bool {
+        let Some(root) = self.fronts.len().checked_sub(1) else { return true };
+        self.eliminate(root, blocks, factor, progress).is_some()
     }
 
     /// Eliminates the vertices of a piece and its parts; what that leaves on the border, lower triangle.
-    fn eliminate(&self, k: usize, blocks: &[f64], factor: &mut [f64]) -> Option<Vec<f64>> {
+    fn eliminate(
+        &self,
+        k: usize,
+        blocks: &[f64],
+        factor: &mut [f64],
+        progress: &dyn Progress,
+    ) -> Option<Vec<f64>> {
         let front = &self.fronts[k];
+        if front.many() && progress.cancelled() {
+            return None;
+        }
         let (own, rows) = (front.own(), front.rows());
         let left_over = rows - own;
         let (below, columns) = factor.split_at_mut(front.columns - front.first_columns);
@@ -171,8 +182,8 @@ impl Multifrontal {
             Some([a, b]) => {
                 let split = self.fronts[b].first_columns - front.first_columns;
                 let (first, second) = below.split_at_mut(split);
-                let left = || self.eliminate(a, blocks, first);
-                let right = || self.eliminate(b, blocks, second);
+                let left = || self.eliminate(a, blocks, first, progress);
+                let right = || self.eliminate(b, blocks, second, progress);
                 let (left, right) = both(front.many(), left, right);
                 [left?, right?]
             }
