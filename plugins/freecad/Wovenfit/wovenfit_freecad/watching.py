@@ -1,0 +1,54 @@
+"""Sees that a brace's source was replaced: FreeCAD does not tell dependents of a new mesh.
+
+In a window, `after` is set to what recomputes the document a moment later.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Callable
+
+import FreeCAD
+
+after: Callable[[Any], None] | None = None
+"""Called with a document whose brace has become out of date."""
+
+
+class _Watcher:
+    """An observer of all documents."""
+
+    def slotChangedObject(self, obj: Any, name: str) -> None:
+        """A property has changed."""
+        if name != "Mesh":
+            return
+        from .brace import is_brace
+
+        for brace in obj.InList:
+            if is_brace(brace):
+                brace.touch()
+                if after is not None:
+                    after(brace.Document)
+
+    def slotUndoDocument(self, document: Any) -> None:
+        """Something was undone."""
+        self._travelled(document)
+
+    def slotRedoDocument(self, document: Any) -> None:
+        """Something was done again."""
+        self._travelled(document)
+
+    def _travelled(self, document: Any) -> None:
+        from .brace import is_brace
+
+        if after is not None and any(is_brace(obj) for obj in document.Objects):
+            after(document)
+
+
+_watcher: _Watcher | None = None
+
+
+def begin() -> None:
+    """Begins to watch, once."""
+    global _watcher  # FreeCAD has one list of observers
+    if _watcher is None:
+        _watcher = _Watcher()
+        FreeCAD.addDocumentObserver(_watcher)
