@@ -17,10 +17,12 @@ in the documentation of the package `wovenfit`, which computes it.
 
 from .edits import (
     add_pressure,
+    add_region_between,
     add_region_plane,
     add_seam,
     apply_design,
     clear_orientation,
+    clear_region,
     clear_seams,
     design_of,
     new_brace,
@@ -32,10 +34,12 @@ from .page import make_page
 
 __all__ = [
     "add_pressure",
+    "add_region_between",
     "add_region_plane",
     "add_seam",
     "apply_design",
     "clear_orientation",
+    "clear_region",
     "clear_seams",
     "design_of",
     "export",

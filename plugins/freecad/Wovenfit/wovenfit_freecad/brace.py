@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 import wovenfit
@@ -38,12 +39,14 @@ class Brace(Scripted):
         return self._results
 
     def onDocumentRestored(self, obj: Any) -> None:
-        """After opening or pasting: adds what this version has more; asks for a recomputation if
-        what was saved is no valid pattern of this version."""
+        """After opening or pasting: adds what this version has more."""
         _add_properties(obj)
         watching.begin()
-        if not obj.ComputedFor or obj.ComputedBy != wovenfit.version():
-            obj.touch()
+
+    def mustExecute(self, obj: Any) -> bool:
+        """Whether a recomputation must not pass over it: what is there is no valid result of this
+        version."""
+        return not obj.ComputedFor or obj.ComputedBy != wovenfit.version()
 
     def execute(self, obj: Any) -> None:
         """Flattens, if what was computed last is for other inputs.
@@ -53,7 +56,7 @@ class Brace(Scripted):
         """
         try:
             inputs = inputs_of(obj)
-            if obj.ComputedFor == inputs.key and not self._failure:
+            if obj.ComputedFor == inputs.key and not self._failure and not self.mustExecute(obj):
                 return
             if not (obj.Automatic or self.results.has(inputs)):
                 raise OutOfDate(
@@ -64,7 +67,7 @@ class Brace(Scripted):
             self._failure = ""
             _publish(obj, inputs, pattern)
         except wovenfit.WovenfitError as error:
-            text = in_words_of_the_host(str(error))
+            text = in_words_of_the_host(obj, str(error))
             self._fail(obj, text)
             raise RuntimeError(text) from None
         except Exception as error:
@@ -103,14 +106,34 @@ def children(brace: Any) -> list[Any]:
     return [obj for obj in brace.InList if getattr(obj, "Brace", None) == brace]
 
 
-def in_words_of_the_host(text: str) -> str:
+def in_words_of_the_host(obj: Any, text: str) -> str:
     """A text of the library with the names that FreeCAD shows."""
-    rows = [(row.key.replace("_", "-"), row.name) for row in properties.parameters()]
-    rows += [(row.key, row.name) for row in properties.parameters()]
-    rows += [(row.key, row.name) for row in properties.wishes()]
-    for key, name in rows:
-        text = text.replace(f"`{key}`", f"`{name}`").replace(f"`--{key}`", f"`{name}`")
-    return text
+    for row in properties.parameters():
+        for key in (row.key, row.key.replace("_", "-")):
+            text = text.replace(f"`{key}`", f"`{row.name}`").replace(f"`--{key}`", f"`{row.name}`")
+    for row in properties.wishes():
+        if "." in row.key:
+            text = re.sub(rf"(?<![\w.]){re.escape(row.key)}(?![\w.])", row.name, text)
+        else:
+            text = text.replace(f"`{row.key}`", f"`{row.name}`")
+    text = re.sub(r'write "mmhg": ([\d.]+)', r"write \1 Torr", text)
+    try:
+        numbers = places.pressures(obj)
+    except ValueError:
+        return text
+    named = {str(k): n for k, n in enumerate(numbers)}
+    text = re.sub(
+        r"pressures\[(\d+)\]\.(kpa|at)",
+        lambda m: ("PressurePlace" if m[2] == "at" else "Pressure") + str(named.get(m[1], m[1])),
+        text,
+    )
+    # Counted from 1 in the order of the design; numbers have gaps where one was removed. What is
+    # followed by a unit is a value.
+    return re.sub(
+        r"\b[Pp]ressures? (\d+(?:(?:, | and )\d+)*)(?![\d.]*\d| ?(?:kPa|mmHg))",
+        lambda m: re.sub(r"\d+", lambda k: f"Pressure{named.get(str(int(k[0]) - 1), k[0])}", m[1]),
+        text,
+    )
 
 
 def _add_properties(obj: Any) -> None:
@@ -165,7 +188,7 @@ def _publish(obj: Any, inputs: Inputs, pattern: wovenfit.Pattern) -> None:
         setattr(obj, f"PressureComputed{n}", quantity(row.got_kpa, PRESSURE))
         if row.reason is not None:
             said.append(f"Pressure{n}: {row.reason.message}")
-    obj.Warnings = [in_words_of_the_host(text) for text in said]
+    obj.Warnings = [in_words_of_the_host(obj, text) for text in said]
     obj.ComputedFor, obj.ComputedBy = inputs.key, wovenfit.version()
 
 

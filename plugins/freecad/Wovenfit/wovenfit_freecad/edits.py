@@ -9,7 +9,7 @@ from typing import Any
 import FreeCAD
 
 from . import computation, places, properties, watching
-from .brace import Brace, is_brace
+from .brace import Brace, children, is_brace
 from .pattern import Pattern
 from .quantities import PRESSURE, quantity
 from .source import is_source
@@ -37,13 +37,12 @@ def new_brace(document: Any, source: Any, faces: Iterable[str] = (), label: str 
     brace.Source = (source, list(faces))
     _dress(brace)
     add_shown(brace)
+    _beside(source, brace)
     return brace
 
 
 def add_shown(brace: Any) -> None:
     """Makes what shows the brace's result, where it is missing."""
-    from .brace import children
-
     there = [type(child.Proxy) for child in children(brace)]
     if Pattern not in there:
         pattern = brace.Document.addObject("Part::FeaturePython", "Pattern")
@@ -53,6 +52,14 @@ def add_shown(brace: Any) -> None:
         worn = brace.Document.addObject("Mesh::FeaturePython", "Worn")
         Worn(worn, brace)
         _dress(worn)
+
+
+def _beside(source: Any, brace: Any) -> None:
+    """Lays a new pattern beside the limb, where it can be seen; it is moved as any object."""
+    box = source.Mesh.BoundBox if source.isDerivedFrom("Mesh::Feature") else source.Shape.BoundBox
+    for child in children(brace):
+        if isinstance(child.Proxy, Pattern):
+            child.Placement.Base = FreeCAD.Vector(box.XMax + 40.0, box.YMin, 0.0)
 
 
 def _dress(obj: Any) -> None:
@@ -77,7 +84,7 @@ def add_pressure(brace: Any, place: Any, pressure: Any) -> str:
 def remove_pressure(brace: Any, name: str) -> None:
     """Takes a wanted pressure out, by the name of its property."""
     number = name.removeprefix("Pressure")
-    if not (number.isdigit() and int(number) in places.pressures(_brace(brace))):
+    if not number.isdigit() or name not in _brace(brace).PropertiesList:
         raise ValueError(f"{brace.Label} has no {name}")
     places.remove_pressure(brace, int(number))
 
@@ -109,6 +116,27 @@ def clear_seams(brace: Any) -> None:
 def add_region_plane(brace: Any, plane: Any) -> None:
     """Bounds the brace by an object's XY plane; it covers the side to which its z axis points."""
     _brace(brace).RegionPlanes = [*brace.RegionPlanes, plane]
+
+
+def add_region_between(brace: Any, first: Any, second: Any) -> None:
+    """Bounds the brace by two new planes that face each other, at two places in mm."""
+    along = FreeCAD.Vector(*second) - FreeCAD.Vector(*first)
+    if along.Length == 0:
+        raise ValueError("the two places are the same: the planes have no direction")
+    for place, normal in ((first, along), (second, -along)):
+        plane = {"point": list(place), "normal": list(normal)}
+        add_region_plane(brace, _plane(_brace(brace).Document, plane))
+
+
+def clear_region(brace: Any) -> None:
+    """Lets the brace cover the whole limb; its planes go from the document."""
+    planes = _brace(brace).RegionPlanes
+    brace.RegionPlanes = []
+    brace.RegionFacets = []
+    for plane in planes:
+        # One that something else hangs on stays.
+        if not plane.InList:
+            brace.Document.removeObject(plane.Name)
 
 
 def design_of(brace: Any) -> str:

@@ -1,4 +1,5 @@
-"""Sees that a brace's source was replaced: FreeCAD does not tell dependents of a new mesh.
+"""Sees what FreeCAD does not tell a brace: that its source's mesh was replaced, that a pressure or a
+seam was removed.
 
 In a window, `after` is set to what recomputes the document a moment later.
 """
@@ -27,6 +28,20 @@ class _Watcher:
                 brace.touch()
                 if after is not None:
                     after(brace.Document)
+
+    def slotAppendDynamicProperty(self, obj: Any, name: str) -> None:
+        """A property was added, or is there again after an undo."""
+        self._came_or_went(obj, name)
+
+    def slotRemoveDynamicProperty(self, obj: Any, name: str) -> None:
+        """A property was removed; FreeCAD does not touch its object then."""
+        self._came_or_went(obj, name)
+
+    def _came_or_went(self, obj: Any, name: str) -> None:
+        from .brace import is_brace
+
+        if name.startswith(("Pressure", "Seam")) and is_brace(obj):
+            obj.touch()
 
     def slotUndoDocument(self, document: Any) -> None:
         """Something was undone."""
