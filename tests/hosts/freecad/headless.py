@@ -595,6 +595,13 @@ def sum_of_cuts(path) -> float:
 
 
 @check
+def a_document_for_the_window_is_made():
+    document, brace, _, _ = on_prism()
+    document.saveAs(str(SCRATCH / "console.FCStd"))
+    assert (SCRATCH / "console.FCStd").is_file()
+
+
+@check
 def files_have_at_most_some_500_lines():
     for path in Path(tools.__file__).parent.rglob("*.py"):
         assert len(path.read_text(encoding="utf-8").splitlines()) <= 500, path

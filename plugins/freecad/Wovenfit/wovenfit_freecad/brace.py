@@ -7,7 +7,7 @@ from typing import Any
 
 import wovenfit
 
-from . import places, properties, watching
+from . import looks, places, properties, watching
 from .computation import Inputs, Results, inputs_of
 from .quantities import LENGTH, PRESSURE, quantity
 from .scripted import HIDDEN, OUTPUT, READ_ONLY, Scripted, ensure, is_scripted
@@ -42,6 +42,7 @@ class Brace(Scripted):
         """After opening or pasting: adds what this version has more."""
         _add_properties(obj)
         watching.begin()
+        looks.opened(obj)
 
     def mustExecute(self, obj: Any) -> bool:
         """Whether a recomputation must not pass over it: what is there is no valid result of this

@@ -22,14 +22,15 @@ NONE = (0.6, 0.6, 0.6)
 """Where there is no value."""
 
 
-def scale(values: npt.NDArray[np.float64]) -> tuple[float, float]:
+def scale(values: npt.NDArray[np.float64], least: float) -> tuple[float, float]:
     """The ends of the scale: without the outermost hundredth on each side, which would take the
-    colours from all else."""
+    colours from all else. It spans at least `least`: colours that show less would show rounding."""
     there = values[np.isfinite(values)]
     if there.size == 0:
-        return 0.0, 1.0
-    low, high = np.percentile(there, [1, 99])
-    return float(low), float(high) if high > low else float(low) + 1e-9
+        return 0.0, least
+    low, high = map(float, np.percentile(there, [1, 99]))
+    missing = max(0.0, least - (high - low)) / 2
+    return low - missing, high + missing
 
 
 def colours(values: npt.NDArray[np.float64], low: float, high: float) -> npt.NDArray[np.float64]:

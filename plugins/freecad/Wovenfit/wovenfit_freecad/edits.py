@@ -8,7 +8,7 @@ from typing import Any
 
 import FreeCAD
 
-from . import computation, places, properties, watching
+from . import computation, looks, places, properties, watching
 from .brace import Brace, children, is_brace
 from .pattern import Pattern
 from .quantities import PRESSURE, quantity
@@ -35,7 +35,7 @@ def new_brace(document: Any, source: Any, faces: Iterable[str] = (), label: str 
     Brace(brace)
     brace.Label = label
     brace.Source = (source, list(faces))
-    _dress(brace)
+    looks.dress(brace)
     add_shown(brace)
     _beside(source, brace)
     return brace
@@ -47,11 +47,11 @@ def add_shown(brace: Any) -> None:
     if Pattern not in there:
         pattern = brace.Document.addObject("Part::FeaturePython", "Pattern")
         Pattern(pattern, brace)
-        _dress(pattern)
+        looks.dress(pattern)
     if Worn not in there:
         worn = brace.Document.addObject("Mesh::FeaturePython", "Worn")
         Worn(worn, brace)
-        _dress(worn)
+        looks.dress(worn)
 
 
 def _beside(source: Any, brace: Any) -> None:
@@ -60,14 +60,6 @@ def _beside(source: Any, brace: Any) -> None:
     for child in children(brace):
         if isinstance(child.Proxy, Pattern):
             child.Placement.Base = FreeCAD.Vector(box.XMax + 40.0, box.YMin, 0.0)
-
-
-def _dress(obj: Any) -> None:
-    """Gives an object its view, in a window."""
-    if FreeCAD.GuiUp:
-        from .gui.views import dress
-
-        dress(obj)
 
 
 def add_pressure(brace: Any, place: Any, pressure: Any) -> str:

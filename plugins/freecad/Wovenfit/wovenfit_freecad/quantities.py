@@ -46,6 +46,9 @@ def number(value: Any, unit: str) -> float:
         value = FreeCAD.Units.Quantity(value)
     if not hasattr(value, "getValueAs"):
         return float(value)
+    if value.Unit == FreeCAD.Units.Unit():
+        # A property that has lost its unit, as a copy of it may have.
+        value = FreeCAD.Units.Quantity(value.Value, FreeCAD.Units.Unit(unit))
     try:
         return float(value.getValueAs(unit))
     except Exception as error:

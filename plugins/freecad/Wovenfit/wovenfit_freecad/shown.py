@@ -6,6 +6,7 @@ from typing import Any
 
 import wovenfit
 
+from . import looks
 from .brace import is_brace
 from .scripted import HIDDEN, OUTPUT, READ_ONLY, Scripted, ensure
 
@@ -27,6 +28,7 @@ class Shown(Scripted):
     def onDocumentRestored(self, obj: Any) -> None:
         """After opening or pasting."""
         self.add_properties(obj)
+        looks.opened(obj)
 
     def execute(self, obj: Any) -> None:
         """Shows the brace's result.

@@ -10,6 +10,8 @@ from typing import Any, Callable
 
 import FreeCAD
 
+from . import looks
+
 after: Callable[[Any], None] | None = None
 """Called with a document whose brace has become out of date."""
 
@@ -19,7 +21,8 @@ class _Watcher:
 
     def slotChangedObject(self, obj: Any, name: str) -> None:
         """A property has changed."""
-        if name != "Mesh":
+        # While a document is opened, everything in it changes.
+        if name != "Mesh" or obj.Document.Restoring:
             return
         from .brace import is_brace
 
@@ -42,6 +45,7 @@ class _Watcher:
 
         if name.startswith(("Pressure", "Seam")) and is_brace(obj):
             obj.touch()
+            looks.redraw(obj)
 
     def slotUndoDocument(self, document: Any) -> None:
         """Something was undone."""

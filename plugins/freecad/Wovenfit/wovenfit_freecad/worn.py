@@ -15,12 +15,12 @@ from .scripted import OUTPUT, READ_ONLY, ensure
 from .shown import Shown
 
 QUANTITIES = {
-    "Strain along warp": ("warp_strain", ""),
-    "Strain along weft": ("weft_strain", ""),
-    "Pressure": ("pressure_kpa", "kPa"),
-    "Friction needed": ("friction", ""),
+    "Strain along warp": ("warp_strain", "", 0.01),
+    "Strain along weft": ("weft_strain", "", 0.01),
+    "Pressure": ("pressure_kpa", "kPa", 0.1),
+    "Friction needed": ("friction", "", 0.01),
 }
-"""What can be shown: the pattern's array, and its unit."""
+"""What can be shown: the pattern's array, its unit, and the least span of its colours."""
 
 
 class Worn(Shown):
@@ -43,9 +43,9 @@ class Worn(Shown):
         return str(obj.Show)
 
     def show(self, obj: Any, pattern: wovenfit.Pattern) -> None:
-        array, _ = QUANTITIES[obj.Show]
+        array, _, least = QUANTITIES[obj.Show]
         values = getattr(pattern, array)
-        low, high = colours.scale(values)
+        low, high = colours.scale(values, least)
         obj.Mesh = as_mesh(pattern.positions, pattern.triangles)
         obj.Values = [float(value) for value in values]
         obj.Least, obj.Most = low, high

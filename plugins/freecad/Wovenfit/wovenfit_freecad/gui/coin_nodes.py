@@ -71,16 +71,26 @@ def ball(place: Sequence[float], colour: RGB, radius: float = 1.5) -> Any:
 
 
 def line(places: Iterable[Sequence[float]], colour: RGB, width: float = 4.0) -> Any:
-    """A line through places, `width` pixels wide."""
+    """A line through places, `width` pixels wide; dotted where something hides it."""
+    points = [tuple(p) for p in places]
+    hidden = coin.SoAnnotation()
+    hidden.addChild(_line(points, colour, width / 2, 0x3333))
+    root = coin.SoSeparator()
+    root.addChild(_line(points, colour, width, 0xFFFF))
+    root.addChild(hidden)
+    return root
+
+
+def _line(points: list[Any], colour: RGB, width: float, pattern: int) -> Any:
     root = coin.SoSeparator()
     plain = coin.SoLightModel()
     plain.model = coin.SoLightModel.BASE_COLOR
     paint = coin.SoBaseColor()
     paint.rgb = colour
     style = coin.SoDrawStyle()
-    style.lineWidth = width
-    points = coin.SoCoordinate3()
-    points.point.setValues(0, [tuple(p) for p in places])
-    for node in (plain, paint, style, points, coin.SoLineSet()):
+    style.lineWidth, style.linePattern = width, pattern
+    corners = coin.SoCoordinate3()
+    corners.point.setValues(0, points)
+    for node in (plain, paint, style, corners, coin.SoLineSet()):
         root.addChild(node)
     return root

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import FreeCAD
@@ -26,10 +27,38 @@ def _soon(document: Any) -> None:
         QtCore.QTimer.singleShot(0, lambda: _now(name))
 
 
+def dress_soon(obj: Any) -> None:
+    """Gives an object its view when it is opened wholly and still has none."""
+    _soon_on(obj, lambda there: there.ViewObject.Proxy in (0, 1, None) and _dress(there))
+
+
+def redraw_soon(brace: Any) -> None:
+    """Draws the wishes of a brace anew, when the change is complete."""
+    _soon_on(brace, lambda there: there.ViewObject.Proxy.redraw(there))
+
+
+def _soon_on(obj: Any, do: Callable[[Any], Any]) -> None:
+    document, name = obj.Document.Name, obj.Name
+
+    def now() -> None:
+        # Both may be gone by then.
+        there = document in FreeCAD.listDocuments() and FreeCAD.getDocument(document).getObject(name)
+        if there:
+            do(there)
+
+    QtCore.QTimer.singleShot(0, now)
+
+
+def _dress(obj: Any) -> None:
+    from .views import dress
+
+    dress(obj)
+
+
 def _now(name: str) -> None:
     _waiting.discard(name)
     document = FreeCAD.listDocuments().get(name)
-    if document is None:
+    if document is None or document.Restoring or document.Recomputing:
         return
     if any(is_brace(obj) and obj.Automatic for obj in document.Objects):
         document.recompute()

@@ -8,6 +8,7 @@ from typing import Any
 import FreeCAD
 import FreeCADGui
 from pivy import coin
+from PySide import QtCore
 
 from ..brace import children
 from . import coin_nodes
@@ -24,6 +25,7 @@ class Picker:
     def __init__(self, brace: Any, picked: Callable[[Any], None]) -> None:
         self._names = {brace.Source[0].Name, *(child.Name for child in children(brace))}
         self._picked = picked
+        self._taken = False
         self._view = FreeCADGui.getDocument(brace.Document.Name).activeView()
         self._kind = coin.SoMouseButtonEvent.getClassTypeId()
         self._heard = self._view.addEventCallbackPivy(self._kind, self._mouse)
@@ -36,8 +38,12 @@ class Picker:
 
     def _mouse(self, callback: Any) -> None:
         event = callback.getEvent()
-        left = event.getButton() == coin.SoMouseButtonEvent.BUTTON1
-        if not left or event.getState() != coin.SoMouseButtonEvent.DOWN:
+        if event.getButton() != coin.SoMouseButtonEvent.BUTTON1:
+            return
+        if event.getState() != coin.SoMouseButtonEvent.DOWN:
+            if self._taken:
+                callback.setHandled()
+            self._taken = False
             return
         if event.wasCtrlDown() or event.wasShiftDown() or event.wasAltDown():
             return
@@ -46,6 +52,9 @@ class Picker:
             if hit["Object"] in self._names:
                 # Or the click would select, too.
                 callback.setHandled()
+                self._taken = True
+                # FreeCAD selects what is clicked all the same.
+                QtCore.QTimer.singleShot(0, FreeCADGui.Selection.clearSelection)
                 self._picked(FreeCAD.Vector(hit["x"], hit["y"], hit["z"]))
                 return
 

@@ -16,6 +16,7 @@ class BraceView(Scripted):
     """The proxy of a brace's view provider."""
 
     Object: Any = None
+    attached = False
     _marks: Any = None
 
     def __init__(self, vobj: Any) -> None:
@@ -23,6 +24,7 @@ class BraceView(Scripted):
 
     def attach(self, vobj: Any) -> None:
         """Called when the view comes to be, also after opening."""
+        self.attached = True
         self.Object = vobj.Object
         self._marks = coin_nodes.scene()
         vobj.addDisplayMode(self._marks, "Marks")
@@ -48,8 +50,12 @@ class BraceView(Scripted):
 
     def updateData(self, obj: Any, name: str) -> None:
         """A property has changed."""
-        if name.startswith(("Pressure", "Seam", "Orientation", "AllPressuresMet")):
+        if name.startswith(("Pressure", "Seam", "Orientation", "Warnings", "ComputedFor")):
             self._draw(obj)
+
+    def redraw(self, obj: Any) -> None:
+        """Draws the wishes anew."""
+        self._draw(obj)
 
     def doubleClicked(self, vobj: Any) -> bool:
         """Opens the panel to flatten."""

@@ -11,6 +11,8 @@ from .resources import icon
 class PatternView(Scripted):
     """The proxy of a pattern's view provider."""
 
+    attached = False
+
     def __init__(self, vobj: Any) -> None:
         vobj.Proxy = self
         vobj.LineWidth = 2.0
@@ -20,6 +22,10 @@ class PatternView(Scripted):
 
     def attach(self, vobj: Any) -> None:
         """Called when the view comes to be."""
+        self.attached = True
+
+    def updateData(self, obj: Any, name: str) -> None:
+        """A property has changed: FreeCAD draws the wires itself."""
 
     def getIcon(self) -> str:
         return icon("Pattern")

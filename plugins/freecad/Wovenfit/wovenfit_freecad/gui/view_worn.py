@@ -23,6 +23,7 @@ PAPER = (1.0, 1.0, 1.0)
 class WornView(Scripted):
     """The proxy of the worn surface's view provider."""
 
+    attached = False
     _scale: Any = None
 
     def __init__(self, vobj: Any) -> None:
@@ -32,6 +33,7 @@ class WornView(Scripted):
 
     def attach(self, vobj: Any) -> None:
         """Called when the view comes to be, also after opening."""
+        self.attached = True
         # Just in front of the scan, which lies in the same place.
         offset = coin.SoPolygonOffset()
         offset.factor, offset.units = -1.0, -1.0
@@ -102,11 +104,16 @@ def _scale(obj: Any) -> list[Any]:
         value = low + share * (high - low)
         place = (right + 0.01, bottom + share * (top - bottom), 0.0)
         nodes.append(coin_nodes.label(place, _number(obj, value), PAPER))
-    nodes.append(coin_nodes.label((left, top + 0.09, 0.0), f"{obj.Show}, by the model", PAPER))
+    nodes.append(coin_nodes.label((left, top + 0.15, 0.0), f"{obj.Show}, by the model", PAPER))
     return nodes
 
 
 def _number(obj: Any, value: float) -> str:
     if QUANTITIES[obj.Show][1] == "kPa":
-        return f"{value:.2f} kPa  {mmhg(value):.1f} mmHg"
-    return f"{value:.3f}"
+        return f"{_plain(value, 2)} kPa  {_plain(mmhg(value), 1)} mmHg"
+    return _plain(value, 3)
+
+
+def _plain(value: float, decimals: int) -> str:
+    """Decimals, and no minus before a zero."""
+    return f"{round(value, decimals) + 0.0:.{decimals}f}"

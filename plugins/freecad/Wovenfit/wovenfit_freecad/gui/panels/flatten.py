@@ -12,7 +12,6 @@ from wovenfit import ParameterKind
 from ... import computation, edits, properties
 from ...brace import in_words_of_the_host
 from ..resources import icon
-from .panel import WIDTH
 
 STAGES = {
     "waiting": "Waiting",
@@ -39,7 +38,6 @@ class FlattenPanel:
         self._job: wovenfit.Job | None = None
         self._inputs: computation.Inputs | None = None
         self.form = QtGui.QWidget()
-        self.form.setMinimumWidth(WIDTH)
         self.form.setWindowTitle(f"Flatten: {brace.Label}")
         self.form.setWindowIcon(QtGui.QIcon(icon("Flatten")))
         column = QtGui.QVBoxLayout(self.form)

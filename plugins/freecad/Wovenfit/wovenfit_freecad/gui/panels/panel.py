@@ -6,7 +6,7 @@ from typing import Any
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtGui
+from PySide import QtCore, QtGui
 
 from ..resources import icon
 
@@ -17,11 +17,21 @@ def show(panel: Any) -> Any:
         FreeCAD.Console.PrintWarning("wovenfit: close the open task panel first\n")
         return False
     FreeCADGui.Control.showDialog(panel)
+    _widen(panel.form)
     return True
 
 
-WIDTH = 340
-"""Least width of a panel in pixels, so that no column of a table is cut."""
+def _widen(form: Any) -> None:
+    """Makes the dock of a panel wide enough, if it is not."""
+    dock = form.parent()
+    while dock is not None and not isinstance(dock, QtGui.QDockWidget):
+        dock = dock.parent()
+    if dock is not None and dock.width() < WIDTH:
+        FreeCADGui.getMainWindow().resizeDocks([dock], [WIDTH], QtCore.Qt.Horizontal)
+
+
+WIDTH = 390
+"""Least width of a panel in pixels; below it columns of a table are cut."""
 
 
 class EditPanel:
@@ -37,7 +47,6 @@ class EditPanel:
         self.brace = brace
         self._document = brace.Document
         self.form = QtGui.QWidget()
-        self.form.setMinimumWidth(WIDTH)
         self.form.setWindowTitle(f"{title}: {brace.Label}")
         self.form.setWindowIcon(QtGui.QIcon(icon(picture)))
         self.column = QtGui.QVBoxLayout(self.form)

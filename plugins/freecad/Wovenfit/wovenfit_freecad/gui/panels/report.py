@@ -12,7 +12,6 @@ from PySide import QtCore, QtGui
 from ... import files, places
 from ..resources import icon
 from ..view_brace import mmhg
-from .panel import WIDTH
 
 
 class ReportPanel:
@@ -26,7 +25,6 @@ class ReportPanel:
         self.brace = brace
         pattern = brace.Proxy.pattern(brace)
         self.form = QtGui.QWidget()
-        self.form.setMinimumWidth(WIDTH)
         self.form.setWindowTitle(f"Report: {brace.Label}")
         self.form.setWindowIcon(QtGui.QIcon(icon("Report")))
         column = QtGui.QVBoxLayout(self.form)
