@@ -13,12 +13,12 @@ import time
 
 sys.path.insert(0, os.environ["TESTS"])
 
-import FreeCAD  # noqa: E402
-import flatmesh  # noqa: E402
-import limbs  # noqa: E402
-import numpy as np  # noqa: E402
-import wovenfit_freecad as tools  # noqa: E402
-from harness import check, run_all  # noqa: E402
+import flatmesh
+import FreeCAD
+import limbs
+import numpy as np
+import wovenfit_freecad as tools
+from harness import check, run_all
 
 
 def stretches(solid: np.ndarray, plane: np.ndarray, triangles: np.ndarray) -> tuple[float, float]:

@@ -15,6 +15,14 @@ check cargo build --release --quiet --package wovenfit
 check target/release/wovenfit sample elbow --triangles 6000 --out "$freecad_scratch/elbow.obj"
 check target/release/wovenfit sample elbow --triangles 30000 --out "$freecad_scratch/large.obj"
 
+# The package's environment has the linter; these checks are no pytest.
+if [ -x "${packaged:-none}/bin/ruff" ]; then
+    check $packaged/bin/ruff check --quiet --config plugins/python/pyproject.toml \
+        --ignore PT017,PT018,RUF059 plugins/freecad tests/hosts/freecad
+    check $packaged/bin/ruff format --quiet --check --config plugins/python/pyproject.toml \
+        plugins/freecad tests/hosts/freecad
+fi
+
 # freecad_home FOLDER: a home of FreeCAD's with the workbench and without splash and start page.
 freecad_home() {
     mkdir -p "$1/Mod"
@@ -48,6 +56,7 @@ freecad_checks() {
 }
 
 freecad_checks 240 headless freecadcmd tests/hosts/freecad/headless.py
+freecad_checks 240 beyond freecadcmd tests/hosts/freecad/beyond.py
 freecad_checks 120 beside freecadcmd tests/hosts/freecad/beside.py
 grep -A 3 '^elbow, ' "$freecad_scratch/beside.log" && grep '^seconds: ' "$freecad_scratch/beside.log"
 
@@ -58,12 +67,14 @@ freecad_batch=(env FREECAD_USER_HOME="$freecad_scratch/home-batch" DESIGN="$free
     OUT="$freecad_scratch/patterns")
 check "${freecad_batch[@]}" SCANS="$freecad_scratch/elbow.obj" \
     freecadcmd target/freecad/Wovenfit/examples/batch.py </dev/null >"$freecad_scratch/batch.log" 2>&1
-check grep -q '^elbow.obj: 254.2 mm by 263.5 mm, all pressures met' "$freecad_scratch/batch.log"
+# FreeCAD's progress shares the line, each step after a carriage return.
+tr '\r' '\n' <"$freecad_scratch/batch.log" >"$freecad_scratch/batch.lines"
+check grep -q '^[[:space:]]*elbow.obj: 254.2 mm by 263.5 mm, all pressures met' "$freecad_scratch/batch.lines"
 check test -s "$freecad_scratch/patterns/elbow/pattern.svg" -a -s "$freecad_scratch/patterns/elbow/elbow.FCStd"
 refused 1 "${freecad_batch[@]}" SCANS="$freecad_scratch/broken.stl" \
     freecadcmd target/freecad/Wovenfit/examples/batch.py </dev/null
 
 freecad_checks 300 window xvfb-run -a -s "-screen 0 1600x1000x24" freecad \
-    tests/hosts/freecad/window.FCMacro
+    tests/hosts/freecad/window.py
 echo "pictures of the window: $freecad_pictures"
 end

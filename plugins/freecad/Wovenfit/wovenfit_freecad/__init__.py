@@ -1,4 +1,4 @@
-"""Elastic medical braces in FreeCAD: a scanned limb, a fabric and wanted pressures become a pattern.
+"""Elastic medical braces in FreeCAD: limb, fabric and wanted pressures become a pattern.
 
 A script begins here; nothing of the window is imported:
 

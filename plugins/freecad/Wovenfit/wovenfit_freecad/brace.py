@@ -95,6 +95,8 @@ class Brace(Scripted):
         # FreeCAD passes over what depends on an invalid object and leaves it looking valid.
         for child in children(obj):
             child.recompute()
+            for other in _dependents(child):
+                other.recompute()
 
 
 def is_brace(obj: Any) -> bool:
@@ -105,6 +107,11 @@ def is_brace(obj: Any) -> bool:
 def children(brace: Any) -> list[Any]:
     """What shows a brace's result: patterns and worn surfaces."""
     return [obj for obj in brace.InList if getattr(obj, "Brace", None) == brace]
+
+
+def _dependents(obj: Any) -> list[Any]:
+    """What hangs on an object, such as drawings of it, each after what it hangs on itself."""
+    return sorted(obj.InListRecursive, key=lambda other: len(other.OutListRecursive))
 
 
 def in_words_of_the_host(obj: Any, text: str) -> str:

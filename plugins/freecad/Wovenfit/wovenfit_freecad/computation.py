@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from contextlib import ExitStack
 from dataclasses import dataclass
 from typing import Any
 
@@ -38,12 +39,13 @@ class Inputs:
         Raises:
             wovenfit.WovenfitError: for what the library refuses at once.
         """
-        with wovenfit.Design.from_json(self.design, "mm") as design:
-            with wovenfit.Parameters(**self.parameters) as values:
-                if limb is not None:
-                    return limb.start(design, values)
-                with wovenfit.Mesh(*self.surface, "mm") as mesh:
-                    return wovenfit.Job(mesh, design, values)
+        with ExitStack() as held:
+            design = held.enter_context(wovenfit.Design.from_json(self.design, "mm"))
+            values = held.enter_context(wovenfit.Parameters(**self.parameters))
+            if limb is not None:
+                return limb.start(design, values)
+            mesh = held.enter_context(wovenfit.Mesh(*self.surface, "mm"))
+            return wovenfit.Job(mesh, design, values)
 
 
 def inputs_of(brace: Any, changed: dict[str, Any] | None = None) -> Inputs:

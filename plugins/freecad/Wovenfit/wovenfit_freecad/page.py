@@ -29,8 +29,8 @@ def make_page(pattern: Any) -> Any:
     Raises:
         ValueError: if it is empty, or larger than the largest sheet.
     """
-    if pattern.Shape.isNull() or not pattern.Shape.Edges:
-        raise ValueError(f"{pattern.Label} is empty: recompute the brace first")
+    if not pattern.isValid() or not pattern.ShownFor:
+        raise ValueError(f"{pattern.Label} is invalid or empty: recompute the brace first")
     box = pattern.Shape.BoundBox
     found = _sheet_for(box.XLength + 2 * MARGIN, box.YLength + 2 * MARGIN)
     if found is None:
@@ -66,7 +66,9 @@ def _sheet_for(width: float, height: float) -> tuple[str, bool] | None:
     be turned on it."""
     blank = _blank_templates()
     for sheet, (long, short) in SHEETS.items():
-        upright, across = (blank.get(f"{sheet}_{way}_blank.svg") for way in ("Portrait", "Landscape"))
+        upright, across = (
+            blank.get(f"{sheet}_{way}_blank.svg") for way in ("Portrait", "Landscape")
+        )
         if across and width <= long and height <= short:
             return across, False
         if upright and width <= short and height <= long:

@@ -17,6 +17,10 @@ CROSS = 3.0
 """Half the size of a mark, in mm."""
 
 
+NO_PATTERN = 10.0
+"""Half the size of the cross that stands for a pattern that is not there, in mm."""
+
+
 class Pattern(Shown):
     """The proxy of the pattern's feature.
 
@@ -27,8 +31,14 @@ class Pattern(Shown):
     def add_properties(self, obj: Any) -> None:
         super().add_properties(obj)
         for name, text in (
-            ("Seams", "Whether the sides of the seams are wires of their own; their edges are the outline's."),
-            ("Marks", "Whether crosses stand where pressures are wanted, and an arrow along the weft."),
+            (
+                "Seams",
+                "Whether the seams' sides are wires of their own; their edges are the outline's.",
+            ),
+            (
+                "Marks",
+                "Whether crosses stand where pressures are wanted, and an arrow along the weft.",
+            ),
         ):
             if ensure(obj, "App::PropertyBool", name, "Pattern", text):
                 setattr(obj, name, True)
@@ -44,7 +54,8 @@ class Pattern(Shown):
 
     def empty(self, obj: Any) -> None:
         placement = obj.Placement
-        obj.Shape = Part.Shape()
+        # Not nothing: TechDraw keeps the earlier drawing of a shape that is gone.
+        obj.Shape = Part.Compound(_cross(np.zeros(2), NO_PATTERN))
         obj.Placement = placement
 
 
@@ -74,11 +85,12 @@ def _closed(points: npt.NDArray[np.float64]) -> Any:
     return Part.Wire([Part.makeLine(a, b) for a, b in zip(corners, corners[1:] + corners[:1])])
 
 
-def _cross(point: npt.NDArray[np.float64]) -> list[Any]:
+def _cross(point: npt.NDArray[np.float64], size: float = CROSS) -> list[Any]:
+    """Two lines of twice `size` mm that cross at a point."""
     x, y = point
     return [
         Part.makePolygon([FreeCAD.Vector(x - dx, y - dy, 0), FreeCAD.Vector(x + dx, y + dy, 0)])
-        for dx, dy in ((CROSS, 0), (0, CROSS))
+        for dx, dy in ((size, 0), (0, size))
     ]
 
 

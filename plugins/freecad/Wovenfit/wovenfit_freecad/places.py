@@ -62,7 +62,9 @@ def pressures(obj: Any) -> list[int]:
     wanted = {int(m[1]) for m in map(_PRESSURE.fullmatch, names) if m}
     placed = {int(m[1]) for m in map(_PLACE.fullmatch, names) if m}
     for n in sorted(wanted ^ placed):
-        missing, there = ("PressurePlace", "Pressure") if n in wanted else ("Pressure", "PressurePlace")
+        missing, there = (
+            ("PressurePlace", "Pressure") if n in wanted else ("Pressure", "PressurePlace")
+        )
         raise ValueError(
             f"{there}{n} has no {missing}{n}: remove {there}{n}, or add the pressure anew"
         )

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 from typing import Any
 
 import wovenfit
@@ -78,7 +78,7 @@ class Scalar:
         return "" if self.kind == "App::PropertyString" else 0.0
 
 
-@lru_cache(maxsize=None)
+@cache
 def wishes() -> tuple[Scalar, ...]:
     """The design's single values, from the schema."""
     found = []
@@ -114,7 +114,7 @@ def _wish(key: str, group: str, about: dict[str, Any], default: Any) -> Scalar:
     return Scalar(key, name, group, kind, unit, text, default, choices)
 
 
-@lru_cache(maxsize=None)
+@cache
 def parameters() -> tuple[Scalar, ...]:
     """The table of parameters."""
     return tuple(_parameter(row) for row in wovenfit.parameter_table())
@@ -134,7 +134,14 @@ def _parameter(row: wovenfit.Parameter) -> Scalar:
         text += f"\nFrom {row.least:g} to {row.most:g} {row.unit}".rstrip() + "."
     unit = row.unit if row.unit == LENGTH else ""
     return Scalar(
-        row.name, _camel(row.name), "Parameters", kinds[row.kind], unit, text, row.default, row.choices
+        row.name,
+        _camel(row.name),
+        "Parameters",
+        kinds[row.kind],
+        unit,
+        text,
+        row.default,
+        row.choices,
     )
 
 

@@ -1,4 +1,4 @@
-"""What all scripted objects here share: their state is in their properties, so a proxy saves none."""
+"""What scripted objects share: their state is in their properties, and a proxy saves none."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ class Scripted:
 
     def dumps(self) -> None:
         """What is saved: nothing. Asked by FreeCAD 1.0."""
-        return None
+        return
 
     def loads(self, state: Any) -> None:
         """Takes back what was saved: nothing. Asked by FreeCAD 1.0."""
@@ -27,9 +27,7 @@ class Scripted:
         del state
 
 
-def ensure(
-    obj: Any, kind: str, name: str, group: str, text: str, attributes: int = 0
-) -> bool:
+def ensure(obj: Any, kind: str, name: str, group: str, text: str, attributes: int = 0) -> bool:
     """Adds a property unless it is there; whether it was added."""
     if name in obj.PropertiesList:
         return False

@@ -12,7 +12,7 @@ from .scripted import HIDDEN, OUTPUT, READ_ONLY, Scripted, ensure
 
 
 class Shown(Scripted):
-    """The proxy of an object that shows a brace's result; it is empty and invalid when the brace is."""
+    """The proxy of what shows a brace's result: empty and invalid when the brace is."""
 
     def __init__(self, obj: Any, brace: Any) -> None:
         obj.Proxy = self

@@ -1,4 +1,4 @@
-"""The limb's surface as arrays: the mesh of a document, or faces of a shape tessellated by FreeCAD."""
+"""The limb's surface as arrays: a document's mesh, or faces of a shape, tessellated by FreeCAD."""
 
 from __future__ import annotations
 

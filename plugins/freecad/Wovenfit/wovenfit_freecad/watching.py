@@ -1,5 +1,4 @@
-"""Sees what FreeCAD does not tell a brace: that its source's mesh was replaced, that a pressure or a
-seam was removed.
+"""Sees what FreeCAD does not tell a brace: that its source's mesh was replaced, or a wish removed.
 
 In a window, `after` is set to what recomputes the document a moment later.
 """

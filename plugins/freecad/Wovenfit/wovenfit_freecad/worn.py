@@ -37,7 +37,9 @@ class Worn(Shown):
         ensure(obj, "App::PropertyFloat", "Least", "Worn", "Value of the scale's low end.", shown)
         ensure(obj, "App::PropertyFloat", "Most", "Worn", "Value of the scale's high end.", shown)
         # The view of a mesh takes the only list of colours that its object has.
-        ensure(obj, "App::PropertyColorList", "VertexColors", "Worn", "Colour of every point.", shown)
+        ensure(
+            obj, "App::PropertyColorList", "VertexColors", "Worn", "Colour of every point.", shown
+        )
 
     def options(self, obj: Any) -> str:
         return str(obj.Show)

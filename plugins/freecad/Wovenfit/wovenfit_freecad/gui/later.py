@@ -42,7 +42,9 @@ def _soon_on(obj: Any, do: Callable[[Any], Any]) -> None:
 
     def now() -> None:
         # Both may be gone by then.
-        there = document in FreeCAD.listDocuments() and FreeCAD.getDocument(document).getObject(name)
+        there = document in FreeCAD.listDocuments() and FreeCAD.getDocument(document).getObject(
+            name
+        )
         if there:
             do(there)
 

@@ -1,4 +1,4 @@
-"""Clicks on the limb: the place on the surface under the mouse, and what has been clicked so far."""
+"""Clicks on the limb: the place on the surface under the mouse, and what was clicked so far."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The view of the worn brace: colours on the mesh and their scale at the left edge of the window."""
+"""The view of the worn brace: colours on the mesh, and their scale at the window's left edge."""
 
 from __future__ import annotations
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..panels.panel import show
 from ..panels.orientation import OrientationPanel
+from ..panels.panel import show
 from .command import Command
 
 

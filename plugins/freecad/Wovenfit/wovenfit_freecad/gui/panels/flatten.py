@@ -30,7 +30,7 @@ POLL_MS = 50
 
 
 class FlattenPanel:
-    """The panel. Parameters and result become one step of undo; before that the brace is untouched."""
+    """The panel. Parameters and result become one step of undo, and nothing before."""
 
     def __init__(self, brace: Any) -> None:
         self.brace = brace
@@ -174,8 +174,8 @@ class FlattenPanel:
         met = "all pressures are met" if self.brace.AllPressuresMet else "not all pressures are met"
         count = len(self.brace.Warnings)
         self.stage.setText(
-            f"Done: {self.brace.Width.UserString} by {self.brace.Height.UserString}, {met}, {count} "
-            f"warning{'' if count == 1 else 's'}: see Report."
+            f"Done: {self.brace.Width.UserString} by {self.brace.Height.UserString}, {met}, "
+            f"{count} warning{'' if count == 1 else 's'}: see Report."
         )
 
     def _say_failure(self, error: Exception) -> None:

@@ -16,8 +16,8 @@ class OrientationPanel(EditPanel):
     def __init__(self, brace: Any) -> None:
         super().__init__(brace, "Orientation", "Orientation")
         self.tell(
-            "Click two places on the limb, the first near the body. In the pattern they stand above "
-            "each other: the direction of the weft."
+            "Click two places on the limb, the first near the body. In the pattern they stand "
+            "above each other: the direction of the weft."
         )
         self.said = self.tell("")
         self.button("Automatic: along the limb", self.automatic)

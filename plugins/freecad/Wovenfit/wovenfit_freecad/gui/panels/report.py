@@ -31,8 +31,9 @@ class ReportPanel:
         figures = pattern.figures
         converged = "converged" if figures.converged else "NOT converged"
         head = QtGui.QLabel(
-            f"{figures.width_mm:.1f} mm by {figures.height_mm:.1f} mm, fit {converged}. Pressures are "
-            f"computed by a model at a scale of {figures.curvature_radius_mm:g} mm, not measured."
+            f"{figures.width_mm:.1f} mm by {figures.height_mm:.1f} mm, fit {converged}. "
+            "Pressures "
+            f"are computed by a model at a scale of {figures.curvature_radius_mm:g} mm, not measured."
         )
         head.setWordWrap(True)
         column.addWidget(head)

@@ -16,8 +16,8 @@ class SeamPanel(EditPanel):
     def __init__(self, brace: Any) -> None:
         super().__init__(brace, "Seam", "Seam")
         self.tell(
-            "Click along the limb where it shall be cut open, from one edge of the brace to the other. "
-            "Between two clicks the cut runs the short way over the surface."
+            "Click along the limb where it shall be cut open, from one edge of the brace to the "
+            "other. Between two clicks the cut runs the short way over the surface."
         )
         self.said = self.tell("")
         self.button("Take back the last point", self.back)
@@ -70,6 +70,8 @@ class SeamPanel(EditPanel):
 
     def _say(self) -> None:
         there = len(places.seams(self.brace))
-        seams = f"{there} seam{'s' if there > 1 else ''} drawn." if there else "The seam is automatic."
+        seams = (
+            f"{there} seam{'s' if there > 1 else ''} drawn." if there else "The seam is automatic."
+        )
         points = f" {len(self._points)} point{'s' if len(self._points) != 1 else ''} of a new one."
         self.said.setText(seams + (points if self._points else ""))

@@ -1,14 +1,11 @@
-"""What a designer does in the window: the workbench, clicks on the limb, panels, progress, cancel."""
+"""What a designer does in the window: the workbench, clicks, panels, progress, cancel."""
 
 from __future__ import annotations
 
-import json
 import os
-import subprocess
 import sys
 import time
 import traceback
-from pathlib import Path
 
 sys.path.insert(0, os.environ["TESTS"])
 
@@ -18,128 +15,32 @@ import limbs
 import Mesh
 import numpy as np
 import wovenfit
-from harness import SCRATCH, check, close, refused, run_all
+from hands import (
+    click,
+    labels,
+    one_brace,
+    panel,
+    picture,
+    scale_texts,
+    type_into,
+    view,
+    wait,
+    wait_for,
+)
+from harness import SCRATCH, check, close, run_all
 from PySide import QtCore, QtGui
 
-PICTURES = Path(os.environ["PICTURES"])
 NAMES = (
-    "NewBrace", "AddPressure", "Orientation", "Seam", "Region", "Flatten", "Export", "Page", "Report"
+    "NewBrace",
+    "AddPressure",
+    "Orientation",
+    "Seam",
+    "Region",
+    "Flatten",
+    "Export",
+    "Page",
+    "Report",
 )
-
-
-def wait(seconds: float) -> None:
-    """Lets the window work."""
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        QtGui.QApplication.processEvents()
-        time.sleep(0.01)
-
-
-def wait_for(holds, what: str, seconds: float = 60.0) -> None:
-    """Lets the window work until something holds."""
-    end = time.monotonic() + seconds
-    while not holds():
-        assert time.monotonic() < end, f"after {seconds} s still not: {what}"
-        wait(0.02)
-
-
-def picture(name: str) -> None:
-    """A picture of the whole window."""
-    wait(0.5)
-    file = PICTURES / f"{name}.png"
-    subprocess.run(["import", "-window", "root", str(file)], check=True, stdin=subprocess.DEVNULL)
-    image = QtGui.QImage(str(file))
-    shades = {image.pixel(x, y) for x in range(0, image.width(), 40) for y in range(0, image.height(), 40)}
-    assert len(shades) > 10, f"{name} is empty"
-
-
-def view():
-    return FreeCADGui.activeDocument().activeView()
-
-
-def click(place) -> None:
-    """A click of the left button on a place of the 3D view, as the mouse makes it."""
-    area = view().graphicsView().viewport()
-    x, y = view().getPointOnScreen(FreeCAD.Vector(*place))
-    ratio = area.devicePixelRatioF()
-    at = QtCore.QPointF(x / ratio, area.height() - 1 - y / ratio)
-    kinds = (
-        (QtCore.QEvent.MouseMove, QtCore.Qt.NoButton),
-        (QtCore.QEvent.MouseButtonPress, QtCore.Qt.LeftButton),
-        (QtCore.QEvent.MouseButtonRelease, QtCore.Qt.LeftButton),
-    )
-    for kind, button in kinds:
-        held = button if kind == QtCore.QEvent.MouseButtonPress else QtCore.Qt.NoButton
-        event = QtGui.QMouseEvent(kind, at, button, held, QtCore.Qt.NoModifier)
-        QtGui.QApplication.sendEvent(area, event)
-    wait(0.1)
-
-
-def type_into(widget, text: str) -> None:
-    """Keys, and Tab at the end."""
-    for key, words in [*((0, c) for c in text), (QtCore.Qt.Key_Tab, "\t")]:
-        for kind in (QtCore.QEvent.KeyPress, QtCore.QEvent.KeyRelease):
-            event = QtGui.QKeyEvent(kind, key, QtCore.Qt.NoModifier, words)
-            QtGui.QApplication.sendEvent(widget, event)
-    wait(0.05)
-
-
-def panel(command: str):
-    """Runs a command and gives the task panel that it opens."""
-    from wovenfit_freecad.gui.panels import panel as module
-
-    opened = []
-    show = module.show
-
-    def remember(one):
-        opened.append(one)
-        return show(one)
-
-    for name, loaded in list(sys.modules.items()):
-        if name.startswith("wovenfit_freecad.gui") and getattr(loaded, "show", None) is show:
-            loaded.show = remember
-    try:
-        FreeCADGui.runCommand(f"Wovenfit_{command}")
-    finally:
-        for name, loaded in list(sys.modules.items()):
-            if name.startswith("wovenfit_freecad.gui") and getattr(loaded, "show", None) is remember:
-                loaded.show = show
-    wait(0.2)
-    assert opened and FreeCADGui.Control.activeDialog(), f"{command} opened no panel"
-    return opened[0]
-
-
-def labels(brace) -> list[str]:
-    """The texts in the view of a brace."""
-    from pivy import coin
-
-    search = coin.SoSearchAction()
-    search.setType(coin.SoType.fromName("SoFrameLabel"))
-    search.setInterest(coin.SoSearchAction.ALL)
-    search.setSearchingAll(True)
-    search.apply(brace.ViewObject.Proxy._marks)
-    paths = search.getPaths()
-    return [
-        str(paths[i].getTail().getField("string").get().getString()).strip('"')
-        for i in range(paths.getLength())
-    ]
-
-
-def one_brace(mesh=None):
-    """A document with a prism and a brace on it, made by the command."""
-    for name in list(FreeCAD.listDocuments()):
-        FreeCAD.closeDocument(name)
-    document = FreeCAD.newDocument("Window")
-    scan = limbs.add_mesh(document, mesh or limbs.prism())
-    document.recompute()
-    FreeCADGui.Selection.clearSelection()
-    FreeCADGui.Selection.addSelection(scan)
-    FreeCADGui.runCommand("Wovenfit_NewBrace")
-    wait(0.1)
-    view().viewFront()
-    view().fitAll()
-    wait(0.3)
-    return document, document.Brace
 
 
 FRONT = -np.pi / 2
@@ -158,7 +59,9 @@ def the_workbench_has_its_commands_with_icons_menu_and_tooltips():
     assert len(shown) == len(NAMES), [action.text() for action in shown]
     for action in shown:
         assert not action.icon().isNull() and len(action.toolTip()) > 10, action.text()
-    menus = [menu for menu in window.menuBar().actions() if menu.text().replace("&", "") == "Wovenfit"]
+    menus = [
+        menu for menu in window.menuBar().actions() if menu.text().replace("&", "") == "Wovenfit"
+    ]
     assert len(menus[0].menu().actions()) == len(NAMES)
     for name in NAMES:
         assert f"Wovenfit_{name}" in FreeCADGui.listCommands()
@@ -177,7 +80,9 @@ def a_new_brace_from_the_selected_mesh_is_one_step_of_undo():
     assert [child.Name for child in brace.ViewObject.Proxy.claimChildren()] == ["Pattern", "Worn"]
     document.undo()
     wait(0.2)
-    assert [obj.Name for obj in document.Objects] == ["Scan"], [obj.Name for obj in document.Objects]
+    assert [obj.Name for obj in document.Objects] == ["Scan"], [
+        obj.Name for obj in document.Objects
+    ]
     document.redo()
     wait(0.2)
     assert document.Brace.isValid() and document.Pattern.Shape.Wires[0].isClosed()
@@ -433,15 +338,6 @@ def colours_and_scale_follow_what_is_shown():
     assert scale_texts(worn) == []
 
 
-def scale_texts(worn) -> list[str]:
-    class Holder:
-        class ViewObject:
-            class Proxy:
-                _marks = worn.ViewObject.Proxy._scale
-
-    return labels(Holder)
-
-
 @check
 def the_page_at_true_size_is_made_by_one_command():
     document, brace = one_brace()
@@ -498,7 +394,9 @@ def made_in_the_console_it_is_dressed_when_opened_here():
     assert isinstance(document.Brace.ViewObject.Proxy, BraceView), document.Brace.ViewObject.Proxy
     assert labels(document.Brace) == ["1: 15.0 mmHg"], labels(document.Brace)
     assert document.Worn.ViewObject.Coloring and len(scale_texts(document.Worn)) == 6
-    assert document.Brace.ViewObject.SwitchNode.whichChild.getValue() >= 0, "the marks are not drawn"
+    assert document.Brace.ViewObject.SwitchNode.whichChild.getValue() >= 0, (
+        "the marks are not drawn"
+    )
     view().viewIsometric()
     view().fitAll()
     picture("console")
