@@ -1,10 +1,17 @@
 # The FreeCAD workbench, in Debian's FreeCAD 0.20: without a window, and in one under Xvfb.
 
 begin "FreeCAD"
-install freecadcmd freecad freecad-python3 python3-numpy
-install xvfb-run xvfb xauth
-install import imagemagick
-dpkg -s libgl1-mesa-dri >/dev/null 2>&1 || install import-gl libgl1-mesa-dri
+# All at once, if anything is missing; Mesa draws where there is no graphics card.
+freecad_packages=(freecad freecad-python3 python3-numpy xvfb xauth imagemagick libgl1-mesa-dri)
+if ! { command -v freecadcmd && command -v xvfb-run && command -v xauth && command -v import &&
+    dpkg -s libgl1-mesa-dri; } >/dev/null 2>&1 && [ "$(id -u)" = 0 ]; then
+    apt-get -o DPkg::Lock::Timeout=300 update -qq &&
+        DEBIAN_FRONTEND=noninteractive apt-get -o DPkg::Lock::Timeout=300 install -qq -y \
+            --no-install-recommends "${freecad_packages[@]}" >/dev/null
+fi
+install freecadcmd "${freecad_packages[@]}"
+install xvfb-run "${freecad_packages[@]}"
+install import "${freecad_packages[@]}"
 freecad_scratch=$scratch/freecad
 freecad_pictures=target/freecad-pictures
 mkdir -p "$freecad_scratch" $freecad_pictures

@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from pathlib import Path
 
 import FreeCAD
@@ -111,6 +112,18 @@ def labels(brace) -> list[str]:
 def scale_texts(worn) -> list[str]:
     """The texts of the scale of a worn surface, from its low end up, then its title."""
     return texts_in(worn.ViewObject.Proxy._scale)
+
+
+@contextmanager
+def answering():
+    """Closes the boxes with a warning; gives the list of what they said."""
+    told = []
+    warning = QtGui.QMessageBox.warning
+    QtGui.QMessageBox.warning = staticmethod(lambda *words: told.append(words[-1]))
+    try:
+        yield told
+    finally:
+        QtGui.QMessageBox.warning = warning
 
 
 def texts_in(scene) -> list[str]:

@@ -16,6 +16,7 @@ import Mesh
 import numpy as np
 import wovenfit
 from hands import (
+    answering,
     click,
     labels,
     one_brace,
@@ -151,6 +152,33 @@ def cancel_in_a_panel_takes_all_back():
     assert not hasattr(brace, "Pressure1") and brace.Width.Value == before
     click(limbs.on_prism(FRONT, 50.0))
     assert not hasattr(brace, "Pressure1"), "the closed panel still hears clicks"
+
+
+@check
+def what_a_panel_breaks_is_said_when_it_is_closed():
+    document, brace = one_brace()
+    opened = panel("AddPressure")
+    click(limbs.on_prism(FRONT, 50.0))
+    type_into(opened.box(0), "150")
+    with answering() as told:
+        opened.accept()
+        wait(0.2)
+    assert "150 mmHg" in told[0] and "Pressure1" in told[0], told
+    assert not brace.isValid() and document.Worn.Mesh.CountFacets == 0
+
+
+@check
+def closing_the_document_stops_its_job():
+    document, brace = one_brace(Mesh.Mesh(str(SCRATCH / "large.obj")))
+    opened = panel("Flatten")
+    opened.fields["method"].set("diffusion")
+    opened.start_button.click()
+    wait(0.3)
+    assert opened._job is not None
+    FreeCAD.closeDocument(document.Name)
+    wait_for(lambda: opened._job is None, "the end of the job", 10)
+    if FreeCADGui.Control.activeDialog():
+        FreeCADGui.Control.closeDialog()
 
 
 @check
@@ -305,15 +333,10 @@ def the_report_and_the_files():
         QtGui.QFileDialog.getExistingDirectory = asked
     assert {path.name for path in folder.iterdir()} == set(wovenfit.FILES)
     # An invalid brace has no files: the reason is shown.
-    told = []
-    warning = QtGui.QMessageBox.warning
-    QtGui.QMessageBox.warning = staticmethod(lambda *words: told.append(words[-1]))
     brace.Pressure1 = "20 kPa"
     document.recompute()
-    try:
+    with answering() as told:
         FreeCADGui.runCommand("Wovenfit_Report")
-    finally:
-        QtGui.QMessageBox.warning = warning
     assert "is invalid" in told[0], told
     assert not document.Worn.VertexColors
 

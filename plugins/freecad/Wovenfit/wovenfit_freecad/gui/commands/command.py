@@ -6,10 +6,10 @@ from typing import Any
 
 import FreeCAD
 import FreeCADGui
-from PySide import QtGui
 
 from ...brace import is_brace
 from ..resources import icon
+from ..telling import complain
 
 
 class Command:
@@ -50,9 +50,3 @@ def the_brace() -> Any:
             return owner
     braces = [obj for obj in document.Objects if is_brace(obj)]
     return braces[0] if len(braces) == 1 else None
-
-
-def complain(title: str, text: str) -> None:
-    """Shows why something cannot be done."""
-    FreeCAD.Console.PrintError(f"{title}: {text}\n")
-    QtGui.QMessageBox.warning(FreeCADGui.getMainWindow(), title, text)

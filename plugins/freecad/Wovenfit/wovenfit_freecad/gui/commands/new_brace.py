@@ -10,6 +10,7 @@ import FreeCADGui
 from ... import edits
 from ...quantities import LENGTH, quantity
 from ...source import is_source
+from ..telling import complain_if_invalid
 from .command import Command
 
 
@@ -47,6 +48,7 @@ def make(source: Any, faces: list[str], edge_length: float | None) -> Any:
         brace.EdgeLength = quantity(edge_length, LENGTH)
     document.recompute()
     document.commitTransaction()
+    complain_if_invalid("New brace", brace)
     FreeCADGui.Selection.clearSelection()
     FreeCADGui.Selection.addSelection(brace)
     return brace

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+import FreeCAD
 import FreeCADGui
 import wovenfit
 from PySide import QtCore, QtGui
@@ -12,6 +13,7 @@ from wovenfit import ParameterKind
 from ... import computation, edits, properties
 from ...brace import in_words_of_the_host
 from ..resources import icon
+from .panel import only_close
 
 STAGES = {
     "waiting": "Waiting",
@@ -34,7 +36,7 @@ class FlattenPanel:
 
     def __init__(self, brace: Any) -> None:
         self.brace = brace
-        self._name = brace.Name
+        self._document = brace.Document.Name
         self._job: wovenfit.Job | None = None
         self._inputs: computation.Inputs | None = None
         self.form = QtGui.QWidget()
@@ -83,7 +85,7 @@ class FlattenPanel:
         return area
 
     def getStandardButtons(self) -> int:
-        return int(QtGui.QDialogButtonBox.Close)
+        return only_close()
 
     def start(self) -> None:
         """Starts a job on what the brace wants and the panel says."""
@@ -125,6 +127,12 @@ class FlattenPanel:
 
     def _poll(self) -> None:
         if self._job is None:
+            return
+        if FreeCAD.listDocuments().get(self._document) is None:
+            # Closed meanwhile.
+            self._timer.stop()
+            self._job.close()
+            self._job = None
             return
         now = self._job.progress()
         if now.state == wovenfit.JobState.RUNNING:

@@ -9,6 +9,14 @@ import FreeCADGui
 from PySide import QtCore, QtGui
 
 from ..resources import icon
+from ..telling import complain_if_invalid
+
+
+def only_close() -> int:
+    """The standard button of a panel that changes nothing when it is closed."""
+    button = QtGui.QDialogButtonBox.Close
+    # A number in Qt 5, an enumeration in Qt 6.
+    return int(getattr(button, "value", button))
 
 
 def show(panel: Any) -> Any:
@@ -45,6 +53,7 @@ class EditPanel:
 
     def __init__(self, brace: Any, title: str, picture: str) -> None:
         self.brace = brace
+        self._title = title
         self._document = brace.Document
         self.form = QtGui.QWidget()
         self.form.setWindowTitle(f"{title}: {brace.Label}")
@@ -76,6 +85,7 @@ class EditPanel:
         FreeCADGui.Control.closeDialog()
         self._document.recompute()
         self._document.commitTransaction()
+        complain_if_invalid(self._title, self.brace)
         return True
 
     def reject(self) -> bool:

@@ -12,6 +12,7 @@ from PySide import QtCore, QtGui
 from ... import files, places
 from ..resources import icon
 from ..view_brace import mmhg
+from .panel import only_close
 
 
 class ReportPanel:
@@ -32,8 +33,8 @@ class ReportPanel:
         converged = "converged" if figures.converged else "NOT converged"
         head = QtGui.QLabel(
             f"{figures.width_mm:.1f} mm by {figures.height_mm:.1f} mm, fit {converged}. "
-            "Pressures "
-            f"are computed by a model at a scale of {figures.curvature_radius_mm:g} mm, not measured."
+            f"Pressures are computed by a model at a scale of {figures.curvature_radius_mm:g} mm, "
+            "not measured."
         )
         head.setWordWrap(True)
         column.addWidget(head)
@@ -65,7 +66,7 @@ class ReportPanel:
         column.addWidget(self.full)
 
     def getStandardButtons(self) -> int:
-        return int(QtGui.QDialogButtonBox.Close)
+        return only_close()
 
     def reject(self) -> bool:
         """Close, Esc."""
