@@ -78,13 +78,6 @@ class BraceView(Scripted):
         root = self._marks
         while root.getNumChildren() > 1:
             root.removeChild(1)
-        try:
-            numbers = places.pressures(obj)
-        except ValueError:
-            # Half of a pressure is there while it is added or taken out.
-            numbers = []
-        for n in numbers:
-            self._draw_pressure(obj, n)
         if "Orientation" in obj.PropertiesList and len(obj.Orientation) == 2:
             root.addChild(coin_nodes.line(obj.Orientation, coin_nodes.WEFT))
             for place, text in zip(obj.Orientation, ("body", "away")):
@@ -94,6 +87,13 @@ class BraceView(Scripted):
             course = getattr(obj, f"Seam{n}")
             if course:
                 root.addChild(coin_nodes.line(course, coin_nodes.SEAM))
+        try:
+            numbers = places.pressures(obj)
+        except ValueError:
+            # Half of a pressure is there while it is added or taken out.
+            numbers = []
+        for n in numbers:
+            self._draw_pressure(obj, n)
 
     def _draw_pressure(self, obj: Any, n: int) -> None:
         wanted = number(getattr(obj, f"Pressure{n}"), PRESSURE)

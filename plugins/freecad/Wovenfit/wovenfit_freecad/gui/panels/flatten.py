@@ -10,7 +10,7 @@ import wovenfit
 from PySide import QtCore, QtGui
 from wovenfit import ParameterKind
 
-from ... import computation, edits, properties
+from ... import computation, edits, places, properties
 from ...brace import in_words_of_the_host
 from ..resources import icon
 from .panel import only_close
@@ -179,7 +179,9 @@ class FlattenPanel:
             self._say_failure(RuntimeError(self.brace.getStatusString()))
             return
         self.bar.setValue(1000)
-        met = "all pressures are met" if self.brace.AllPressuresMet else "not all pressures are met"
+        wanted = bool(places.pressures(self.brace))
+        met = "all pressures are met" if self.brace.AllPressuresMet else "NOT all pressures are met"
+        met = met if wanted else "no pressures are wanted"
         count = len(self.brace.Warnings)
         self.stage.setText(
             f"Done: {self.brace.Width.UserString} by {self.brace.Height.UserString}, {met}, "
