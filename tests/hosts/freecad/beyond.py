@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import sys
+from pathlib import Path
 
 sys.path.insert(0, os.environ["TESTS"])
 
@@ -199,6 +200,19 @@ def sum_of_cuts(path) -> float:
             levels[z] = levels.get(z, 0.0) + float(np.hypot(a[0] - x, a[1] - y))
         x, y = a
     return max(levels.values(), default=0.0)
+
+
+@check
+def the_add_on_manager_reads_what_it_is():
+    folder = Path(tools.__file__).parent.parent
+    described = FreeCAD.Metadata(str(folder / "package.xml"))
+    assert described.Name == "Wovenfit"
+    assert described.Version == wovenfit.version(), described.Version
+    (bench,) = described.Content["workbench"]
+    assert f"class {bench.Classname}(" in (folder / "InitGui.py").read_text(encoding="utf-8")
+    assert (folder / described.Icon).is_file()
+    assert described.License[0]["name"] == "MIT"
+    assert (folder / "LICENSE-MIT").is_file() and (folder / "LICENSE-APACHE").is_file()
 
 
 @check

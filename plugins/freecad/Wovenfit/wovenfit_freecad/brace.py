@@ -88,6 +88,16 @@ class Brace(Scripted):
             raise RuntimeError(f"{obj.Label} is out of date: recompute it first")
         return self.results.compute(inputs)
 
+    def recomputed(self, obj: Any) -> wovenfit.Pattern:
+        """The same for what is recomputed right after the brace, whose properties are then as they
+        were: without reading its mesh once more.
+
+        Raises:
+            RuntimeError: as `pattern`.
+        """
+        held = None if self._failure else self.results.held(obj.ComputedFor)
+        return self.pattern(obj) if held is None else held
+
     def _fail(self, obj: Any, text: str) -> None:
         self._failure = text
         obj.ComputedFor = ""

@@ -99,7 +99,11 @@ class Results:
 
     def has(self, inputs: Inputs) -> bool:
         """Whether the pattern for these inputs is at hand."""
-        return self._pattern is not None and self._key == inputs.key
+        return self.held(inputs.key) is not None
+
+    def held(self, key: str) -> wovenfit.Pattern | None:
+        """The pattern for the inputs of this key, if it is at hand."""
+        return self._pattern if key and key == self._key else None
 
     def start(self, inputs: Inputs) -> wovenfit.Job:
         """Starts a job: on the limb that is cut open, if it is this one."""
@@ -127,8 +131,9 @@ class Results:
         Raises:
             wovenfit.WovenfitError: for what cannot be flattened.
         """
-        if self._pattern is not None and self.has(inputs):
-            return self._pattern
+        held = self.held(inputs.key)
+        if held is not None:
+            return held
         for _ in range(2):
             with self.start(inputs) as job:
                 try:

@@ -43,7 +43,7 @@ class Shown(Scripted):
             wanted = f"{brace.ComputedFor} {self.options(obj)}"
             if brace.ComputedFor and obj.ShownFor == wanted:
                 return
-            self.show(obj, brace.Proxy.pattern(brace))
+            self.show(obj, brace.Proxy.recomputed(brace))
             obj.ShownFor = wanted
         except Exception:
             obj.ShownFor = ""
