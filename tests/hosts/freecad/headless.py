@@ -226,6 +226,38 @@ def a_broken_mesh_is_named():
 
 
 @check
+def a_scan_in_metres_is_said_in_words_of_freecad():
+    document, brace, pattern, worn = on_prism()
+    document.Scan.Mesh = limbs.prism(radius=0.045, length=0.09)
+    brace.PressurePlace1 = (0.045, 0.0, 0.045)
+    document.recompute()
+    said = " ".join([brace.getStatusString(), *brace.Warnings])
+    assert "--" not in said, said
+    assert "scale the mesh to mm" in said, said
+
+
+@check
+def what_the_library_names_is_named_as_properties_are():
+    from wovenfit_freecad.words import in_words_of_the_host as told
+
+    _, brace, _, _ = on_prism()
+    tools.add_pressure(brace, limbs.on_prism(2.0, 20.0), "2 kPa")
+    tools.add_pressure(brace, limbs.on_prism(2.0, 30.0), "2 kPa")
+    tools.remove_pressure(brace, "Pressure1")
+    for given, wanted in (
+        ("raise newton-steps", "raise NewtonSteps"),
+        ("set `keep_largest`, or `--close-holes`", "set `KeepLargest`, or `CloseHoles`"),
+        ("`fabric.warp` is 0", "`FabricWarp` is 0"),
+        ("`pressures[1].kpa` is 20", "`Pressure3` is 20"),
+        ("thread of pressure 1 and 2 would", "thread of Pressure2 and Pressure3 would"),
+        ("a pressure 5.3 kPa, pressure 12 mmHg", "a pressure 5.3 kPa, pressure 12 mmHg"),
+        ("`orientation[1]` is", "`Orientation[1]` is"),
+        ("set limits.max_kpa to 20", "set LimitsMaxPressure to 20"),
+    ):
+        assert told(brace, given) == wanted, told(brace, given)
+
+
+@check
 def not_automatic_means_marked_out_of_date_until_flattened():
     document, brace, pattern, worn = on_prism()
     brace.Automatic = False

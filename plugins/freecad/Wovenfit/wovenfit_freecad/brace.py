@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import wovenfit
@@ -11,6 +10,7 @@ from . import looks, places, properties, watching
 from .computation import Inputs, Results, inputs_of
 from .quantities import LENGTH, PRESSURE, quantity
 from .scripted import HIDDEN, OUTPUT, READ_ONLY, Scripted, ensure, is_scripted
+from .words import in_words_of_the_host
 
 
 class OutOfDate(RuntimeError):
@@ -122,36 +122,6 @@ def children(brace: Any) -> list[Any]:
 def _dependents(obj: Any) -> list[Any]:
     """What hangs on an object, such as drawings of it, each after what it hangs on itself."""
     return sorted(obj.InListRecursive, key=lambda other: len(other.OutListRecursive))
-
-
-def in_words_of_the_host(obj: Any, text: str) -> str:
-    """A text of the library with the names that FreeCAD shows."""
-    for row in properties.parameters():
-        for key in (row.key, row.key.replace("_", "-")):
-            text = text.replace(f"`{key}`", f"`{row.name}`").replace(f"`--{key}`", f"`{row.name}`")
-    for row in properties.wishes():
-        if "." in row.key:
-            text = re.sub(rf"(?<![\w.]){re.escape(row.key)}(?![\w.])", row.name, text)
-        else:
-            text = text.replace(f"`{row.key}`", f"`{row.name}`")
-    text = re.sub(r'write "mmhg": ([\d.]+)', r"write \1 Torr", text)
-    try:
-        numbers = places.pressures(obj)
-    except ValueError:
-        return text
-    named = {str(k): n for k, n in enumerate(numbers)}
-    text = re.sub(
-        r"pressures\[(\d+)\]\.(kpa|at)",
-        lambda m: ("PressurePlace" if m[2] == "at" else "Pressure") + str(named.get(m[1], m[1])),
-        text,
-    )
-    # Counted from 1 in the order of the design; numbers have gaps where one was removed. What is
-    # followed by a unit is a value.
-    return re.sub(
-        r"\b[Pp]ressures? (\d+(?:(?:, | and )\d+)*)(?![\d.]*\d| ?(?:kPa|mmHg))",
-        lambda m: re.sub(r"\d+", lambda k: f"Pressure{named.get(str(int(k[0]) - 1), k[0])}", m[1]),
-        text,
-    )
 
 
 def _add_properties(obj: Any) -> None:

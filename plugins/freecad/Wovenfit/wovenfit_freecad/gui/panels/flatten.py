@@ -11,7 +11,7 @@ from PySide import QtCore, QtGui
 from wovenfit import ParameterKind
 
 from ... import computation, edits, places, properties
-from ...brace import in_words_of_the_host
+from ...words import in_words_of_the_host
 from ..resources import icon
 from .panel import only_close
 
