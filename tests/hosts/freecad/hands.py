@@ -33,8 +33,8 @@ def wait_for(holds, what: str, seconds: float = 60.0) -> None:
         wait(0.02)
 
 
-def picture(name: str) -> None:
-    """A picture of the whole window."""
+def picture(name: str):
+    """A picture of the whole window, kept."""
     wait(0.5)
     file = PICTURES / f"{name}.png"
     subprocess.run(["import", "-window", "root", str(file)], check=True, stdin=subprocess.DEVNULL)
@@ -43,6 +43,22 @@ def picture(name: str) -> None:
         image.pixel(x, y) for x in range(0, image.width(), 40) for y in range(0, image.height(), 40)
     }
     assert len(shades) > 10, f"{name} is empty"
+    return image
+
+
+def unlike(one, other) -> float:
+    """The share of points of the 3D view that differ clearly between two pictures of the window."""
+    points = [
+        (x, y)
+        for x in range(one.width() * 5 // 12, one.width() * 10 // 12, 4)
+        for y in range(one.height() // 4, one.height() * 2 // 3, 4)
+    ]
+    clearly = 0
+    for x, y in points:
+        a, b = QtGui.QColor(one.pixel(x, y)), QtGui.QColor(other.pixel(x, y))
+        steps = (a.red() - b.red(), a.green() - b.green(), a.blue() - b.blue())
+        clearly += max(map(abs, steps)) > 30
+    return clearly / len(points)
 
 
 def view():

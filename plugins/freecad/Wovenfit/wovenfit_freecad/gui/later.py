@@ -37,6 +37,11 @@ def redraw_soon(brace: Any) -> None:
     _soon_on(brace, lambda there: there.ViewObject.Proxy.redraw(there))
 
 
+def recolour_soon(worn: Any) -> None:
+    """Shows the colours of a worn surface, when it is there wholly."""
+    _soon_on(worn, lambda there: there.ViewObject.Proxy.recolour(there))
+
+
 def _soon_on(obj: Any, do: Callable[[Any], Any]) -> None:
     document, name = obj.Document.Name, obj.Name
 

@@ -10,7 +10,7 @@ from pivy import coin
 from .. import colours
 from ..scripted import Scripted
 from ..worn import QUANTITIES
-from . import coin_nodes
+from . import coin_nodes, later
 from .resources import icon
 from .view_brace import mmhg
 
@@ -45,6 +45,16 @@ class WornView(Scripted):
         outer.addChild(self._scale)
         vobj.RootNode.addChild(outer)
         self._draw(vobj.Object)
+        # A document that is being opened has its colours only later.
+        later.recolour_soon(vobj.Object)
+
+    def recolour(self, obj: Any) -> None:
+        """Shows the object's colours on its mesh, and their scale."""
+        if len(obj.VertexColors) == obj.Mesh.CountPoints > 0:
+            # Off and on: FreeCAD takes new colours when it is switched.
+            obj.ViewObject.Coloring = False
+            obj.ViewObject.Coloring = True
+        self._draw(obj)
 
     def getIcon(self) -> str:
         return icon("Worn")
@@ -52,11 +62,7 @@ class WornView(Scripted):
     def updateData(self, obj: Any, name: str) -> None:
         """A property of the object has changed."""
         if name == "VertexColors":
-            if len(obj.VertexColors) == obj.Mesh.CountPoints > 0:
-                # Off and on: FreeCAD takes new colours when it is switched.
-                obj.ViewObject.Coloring = False
-                obj.ViewObject.Coloring = True
-            self._draw(obj)
+            self.recolour(obj)
 
     def onChanged(self, vobj: Any, name: str) -> None:
         """A property of the view has changed."""

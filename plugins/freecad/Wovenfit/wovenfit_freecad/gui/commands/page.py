@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from typing import Any
 
+import FreeCADGui
+from PySide import QtCore
+
 from ...brace import children
 from ...page import make_page
 from ...pattern import Pattern
 from ...scripted import is_scripted
 from .command import Command
+
+SHOWN_MS = 300
+"""Until the window of a page has its size."""
 
 
 class Page(Command):
@@ -33,3 +39,5 @@ class Page(Command):
         document.recompute()
         document.commitTransaction()
         page.ViewObject.show()
+        # The sheet as a whole, when its window stands.
+        QtCore.QTimer.singleShot(SHOWN_MS, lambda: FreeCADGui.SendMsgToActiveView("ViewFit"))
