@@ -81,7 +81,8 @@ check test -s "$freecad_scratch/patterns/elbow/pattern.svg" -a -s "$freecad_scra
 refused 1 "${freecad_batch[@]}" SCANS="$freecad_scratch/broken.stl" \
     freecadcmd target/freecad/Wovenfit/examples/batch.py </dev/null
 
-freecad_checks 300 window xvfb-run -a -s "-screen 0 1600x1000x24" freecad \
+# The inner limit ends FreeCAD, so that its display ends, too.
+freecad_checks 330 window xvfb-run -a -s "-screen 0 1600x1000x24" timeout 300 freecad \
     tests/hosts/freecad/window.py
 echo "pictures of the window: $freecad_pictures"
 end

@@ -271,6 +271,22 @@ def a_manual_brace_is_flattened_by_the_panel():
 
 
 @check
+def a_brace_copied_alone_gets_its_pattern_from_the_panel():
+    document, brace = one_brace()
+    twin = document.copyObject(brace, False)
+    FreeCADGui.Selection.clearSelection()
+    FreeCADGui.Selection.addSelection(twin)
+    assert twin.ViewObject.Proxy.claimChildren() == []
+    opened = panel("Flatten")
+    opened.start_button.click()
+    wait_for(lambda: opened.stage.text().startswith("Done"), "done")
+    opened.reject()
+    pattern, worn = twin.ViewObject.Proxy.claimChildren()
+    assert twin.isValid() and pattern.isValid() and worn.Mesh.CountFacets > 0
+    assert brace.ViewObject.Proxy.claimChildren() == [document.Pattern, document.Worn]
+
+
+@check
 def progress_is_shown_and_cancel_changes_nothing():
     mesh = Mesh.Mesh(str(SCRATCH / "large.obj"))
     document, brace = one_brace(mesh)
