@@ -292,6 +292,10 @@ enum wovenfit_result_array
   WOVENFIT_RESULT_ARRAY_SEAM_LENGTHS = 11,
   // n x 2: distance along the limb from the end near the body and girth there, in mm.
   WOVENFIT_RESULT_ARRAY_GIRTHS = 12,
+  // n x 2: pattern coordinates of the wanted pressures in the order of the table, in mm.
+  WOVENFIT_RESULT_ARRAY_PRESSURE_POINTS = 13,
+  // 2 x 2: pattern coordinates of the orientation markers in mm, the first near the body.
+  WOVENFIT_RESULT_ARRAY_ORIENTATION_MARKERS = 14,
   // GT x 3 x 2: pattern coordinates for every corner of the given triangles, in their order, in mm;
   // NaN where the brace does not cover a triangle's middle. A triangle through which the edge or a
   // seam runs belongs to the side of its middle, and goes on linearly beyond.

@@ -136,6 +136,25 @@ def test_outline_and_seam_are_vertices_of_the_cut_surface(pattern: wovenfit.Patt
     assert seam.left_mm == pytest.approx(90.0, rel=0.01)
 
 
+def test_marks_lie_in_the_pattern_where_they_are_on_the_limb(limb: Tube) -> None:
+    design = wovenfit.Design()
+    vertices = [10 * limb.sides + 7, 4 * limb.sides + 7]
+    first, second = 2 * limb.sides + 20, 20 * limb.sides + 20
+    with wovenfit.Mesh(limb.positions, limb.triangles) as mesh:
+        design.add_pressures_at_vertices(mesh, vertices, [2.0, 1.5])
+        design.set_orientation_at_vertices(mesh, first, second)
+    pattern = wovenfit.flatten(limb.positions, limb.triangles, design)
+    given = pattern.vertex_to_given_vertex
+    for point, vertex in zip(pattern.pressure_points, vertices):
+        # One, unless the seam runs through it.
+        (mine,) = np.flatnonzero(given == vertex)
+        assert point == pytest.approx(pattern.coordinates[mine], abs=1e-6)
+    markers = pattern.orientation_markers
+    assert markers[0, 0] == pytest.approx(markers[1, 0], abs=1e-6)
+    # 18 of 24 steps along a limb of 90 mm.
+    assert markers[0, 1] - markers[1, 1] == pytest.approx(90.0 * 18 / 24, rel=0.01)
+
+
 def test_the_way_back_to_the_given_mesh(pattern: wovenfit.Pattern, limb: Tube) -> None:
     corners = limb.positions[limb.triangles[pattern.vertex_to_given_triangle]]
     back = np.einsum("vc,vcx->vx", pattern.vertex_weights, corners)

@@ -47,6 +47,10 @@ pub enum ResultDoubles {
     SeamLengths = 11,
     /// n x 2: distance along the limb from the end near the body and girth there, in mm.
     Girths = 12,
+    /// n x 2: pattern coordinates of the wanted pressures in the order of the table, in mm.
+    PressurePoints = 13,
+    /// 2 x 2: pattern coordinates of the orientation markers in mm, the first near the body.
+    OrientationMarkers = 14,
     /// GT x 3 x 2: pattern coordinates for every corner of the given triangles, in their order, in mm;
     /// NaN where the brace does not cover a triangle's middle. A triangle through which the edge or a
     /// seam runs belongs to the side of its middle, and goes on linearly beyond.
@@ -148,6 +152,10 @@ impl Computed {
             seams.flat_map(|seam| [seam.left_mm, seam.right_mm]).collect()
         } else if is(ResultDoubles::Girths) {
             flattening.girths.iter().flat_map(|girth| [girth.at_mm, girth.girth_mm]).collect()
+        } else if is(ResultDoubles::PressurePoints) {
+            flattening.drawing.points.iter().flat_map(|(p, _)| p.to_array()).collect()
+        } else if is(ResultDoubles::OrientationMarkers) {
+            pairs(&flattening.drawing.markers)
         } else if is(ResultDoubles::GivenPatternPerCorner) {
             let corner = |c: &Option<[DVec2; 3]>| c.unwrap_or([DVec2::NAN; 3]);
             self.ways()?.corners.iter().flat_map(corner).flat_map(|p| p.to_array()).collect()

@@ -153,7 +153,7 @@ fn wish(case: &Case, mesh: *const Mesh, design: *mut Design) {
 /// Asks a result for everything.
 fn read(result: *const FitResult, vertices: usize) {
     let mut needed = 0;
-    for what in [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 20, 21, 22, 23] {
+    for what in [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 20, 21, 22, 23] {
         let status = go!(wovenfit_result_doubles(result, what, null_mut(), 0, &raw mut needed));
         assert_eq!(status, Status::Ok, "{what}");
         assert!(what < 21 || needed == vertices);

@@ -221,6 +221,16 @@ class Pattern(Handle):
             for i in range(len(lengths))
         )
 
+    @cached_property
+    def pressure_points(self) -> Doubles:
+        """(n, 2) pattern coordinates of the wanted pressures, in the order of `pressures`."""
+        return self._doubles(ResultArray.PRESSURE_POINTS, 2)
+
+    @cached_property
+    def orientation_markers(self) -> Doubles:
+        """(2, 2) pattern coordinates of the orientation markers, the first near the body."""
+        return self._doubles(ResultArray.ORIENTATION_MARKERS, 2)
+
     # The way back to the mesh that was given. The first of these that is asked for finds it, in a
     # fraction of the job's time.
 

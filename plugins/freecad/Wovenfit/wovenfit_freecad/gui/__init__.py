@@ -1,0 +1,1 @@
+"""What needs FreeCAD's window: views, commands and task panels. Never imported in the console."""

@@ -1,0 +1,1 @@
+"""Task panels, one a file."""
