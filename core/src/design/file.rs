@@ -349,16 +349,18 @@ fn too_high(path: &str, key: &str, value: f64, kpa: f64, max_kpa: Option<f64>) -
         }
         None => format!("{MOST_KPA} kPa ({MOST_MMHG} mmHg)"),
     };
+    // A host's unit may have made any number of digits of it.
+    let said = rounded(value, 3);
     let (other, question) = if key == "kpa" {
         let meant = kpa_from_mmhg(value) <= max_kpa.unwrap_or(MOST_MMHG * KPA_PER_MMHG);
         let question = if meant {
-            format!("; did you mean {value} mmHg? Then write \"mmhg\": {value}")
+            format!("; did you mean {said} mmHg? Then write \"mmhg\": {said}")
         } else {
             String::new()
         };
-        (format!("{value} kPa is {} mmHg", rounded(mmhg_from_kpa(kpa), 1)), question)
+        (format!("{said} kPa is {} mmHg", rounded(mmhg_from_kpa(kpa), 1)), question)
     } else {
-        (format!("{value} mmHg is {} kPa", rounded(kpa, 3)), String::new())
+        (format!("{said} mmHg is {} kPa", rounded(kpa, 3)), String::new())
     };
     let allow = (kpa * 10.0).ceil() / 10.0;
     let allowed = if allow <= MOST_LIMIT_KPA {
@@ -367,7 +369,7 @@ fn too_high(path: &str, key: &str, value: f64, kpa: f64, max_kpa: Option<f64>) -
         String::new()
     };
     let remedy = format!("{other}, above {limit}{question}{allowed}");
-    DesignError::value(format!("{path}.{key}"), value, remedy)
+    DesignError::value(format!("{path}.{key}"), said, remedy)
 }
 
 /// `value` to so many decimals at most, without trailing zeros.
