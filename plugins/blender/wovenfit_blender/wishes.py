@@ -5,7 +5,7 @@ import numpy as np
 from . import limb as limbs
 from .marks import find, points_of, renew
 from .plain.fields import Kind, design_fields, exact, parameter_fields
-from .properties import AUTOMATIC, PAINTED
+from .properties import AUTOMATIC, PAINTED, SCENE
 from .wovenfit import Design, DesignError, Parameters
 
 
@@ -65,8 +65,13 @@ def design_of(limb, surface, mesh, context):
 
 
 def parameters_of(limb):
-    """The settings of a limb."""
+    """The settings of a limb.
+
+    A unit that was chosen is the designer's word: an unusual size is then a warning, no refusal.
+    """
     values = Parameters()
+    if limb.wovenfit.units != SCENE:
+        values["units"] = limb.wovenfit.units
     for field in parameter_fields():
         value = getattr(limb.wovenfit.settings, field.identifier)
         if field.kind is Kind.NUMBER:
