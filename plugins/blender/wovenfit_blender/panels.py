@@ -5,14 +5,14 @@ import bpy
 from . import job
 from .plain.fields import Kind, design_fields, parameter_fields
 from .plain.record import read
-from .plain.wording import MMHG, millimetres, percent, pressure, wrapped
+from .plain.wording import MMHG, first_clause, millimetres, pressure, wrapped
 from .preferences import pressure_unit
 from .presets import fabric_fields
 from .properties import PAINTED, limb_of
 
-_PIXELS_PER_LETTER = 7.2
+_PIXELS_PER_LETTER = 6.4
 """Of the interface's font at scale 1, a little more than its mean, so that no line is cut off."""
-_MARGIN = 50
+_MARGIN = 45
 """Pixels of a panel's line that hold no text."""
 
 
@@ -22,12 +22,12 @@ def letters(context):
     return int((context.region.width / scale - _MARGIN) / _PIXELS_PER_LETTER)
 
 
-def paragraph(layout, context, text, icon="NONE", alert=False):
-    """A text of several lines."""
+def paragraph(layout, context, text, icon="NONE", alert=False, less=0):
+    """A text of several lines, `less` letters narrower than the panel."""
     column = layout.column(align=True)
     column.scale_y = 0.8
     column.alert = alert
-    width = letters(context) - (4 if icon != "NONE" else 0)
+    width = letters(context) - less - (4 if icon != "NONE" else 0)
     for index, line in enumerate(wrapped(text, width)):
         if index == 0:
             column.label(text=line, icon=icon)
@@ -35,14 +35,27 @@ def paragraph(layout, context, text, icon="NONE", alert=False):
             column.label(text=line, icon="BLANK1" if icon != "NONE" else "NONE")
 
 
-def note(layout, context, one, icon, alert=False):
-    """A warning or defect, with a button to its place if it has one."""
+def note(layout, context, one, icon, alert=False, full=True):
+    """A warning or defect, whole or its first clause, with a button to its place if it has one."""
     row = layout.row(align=True)
-    paragraph(row, context, one["message"], icon, alert)
+    text = one["message"] if full else first_clause(one["message"])
+    paragraph(row, context, text, icon, alert, len("→→") if one.get("at") else 0)
     if one.get("at"):
         row.operator("wovenfit.show_place", text="", icon="PIVOT_CURSOR", emboss=False).at = one[
             "at"
         ]
+
+
+def notes(layout, context, kept, all_of_them):
+    """Warnings: what each is, and on request where and what to do."""
+    if not all_of_them:
+        return
+    count = len(all_of_them)
+    row = layout.split(factor=0.68)
+    row.label(text=f"{count} warning{'s' if count > 1 else ''}", icon="ERROR")
+    row.prop(kept, "full_notes", toggle=True)
+    for one in all_of_them:
+        note(layout, context, one, "DOT", full=kept.full_notes)
 
 
 def kpa_or_mmhg(layout, context, group, name, label):
@@ -61,6 +74,9 @@ def field_row(layout, context, group, field):
         row.prop(group, f"use_{name}", text="")
         layout = row.row(align=True)
         layout.active = getattr(group, f"use_{name}")
+    # A number has its name within, where there is room for its unit.
+    layout.use_property_split = field.kind in (Kind.TEXT, Kind.CHOICE)
+    layout.use_property_decorate = False
     if field.unit == "kPa":
         kpa_or_mmhg(layout, context, group, name, field.label.partition(" (")[0])
     else:
@@ -105,8 +121,7 @@ class WOVENFIT_PT_surface(_Panel, bpy.types.Panel):
             column.label(text=f"{size} mm, {found['triangles']} triangles")
         for one in found["defects"]:
             note(layout, context, one, "CANCEL", alert=True)
-        for one in found["warnings"]:
-            note(layout, context, one, "ERROR")
+        notes(layout, context, kept, found["warnings"])
         if kept.faults:
             layout.operator("wovenfit.select_faults", icon="RESTRICT_SELECT_OFF")
 
@@ -141,11 +156,10 @@ class WOVENFIT_UL_pressures(bpy.types.UIList):
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_propname, index=0):
         del icon, active_data, active_propname
-        row = layout.row(align=True)
-        row.label(text=f"{index + 1}", icon="DOT")
+        row = layout.split(factor=0.25)
+        row.label(text=f"{index + 1}")
         name = "mmhg" if pressure_unit(context) == MMHG else "kpa"
         row.prop(item, name, text="", emboss=False)
-        row.label(text=pressure_unit(context))
         del data
 
 
@@ -165,6 +179,7 @@ class WOVENFIT_PT_pressures(_Panel, bpy.types.Panel):
             row.operator("wovenfit.paint", icon="BRUSH_DATA")
             kpa_or_mmhg(layout, context, kept, "most_kpa", "At weight 1")
             return
+        layout.label(text=f"Wanted, in {pressure_unit(context)}")
         row = layout.row()
         row.template_list(
             "WOVENFIT_UL_pressures", "", kept, "pressures", kept, "active_pressure", rows=4
@@ -193,10 +208,9 @@ class WOVENFIT_PT_fabric(_Panel, bpy.types.Panel):
         row.menu("WOVENFIT_MT_fabrics", text="Presets")
         row.operator("wovenfit.keep_fabric", text="", icon="ADD")
         row.operator("wovenfit.keep_fabric", text="", icon="REMOVE").remove_active = True
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        column = layout.column(align=True)
         for field in fabric_fields():
-            field_row(layout, context, group, field)
+            field_row(column, context, group, field)
 
 
 class WOVENFIT_PT_seams(_Panel, bpy.types.Panel):
@@ -238,7 +252,7 @@ class WOVENFIT_PT_flatten(_Panel, bpy.types.Panel):
             return
         layout, kept = self.layout, limb.wovenfit
         if job.running is not None:
-            _progress(layout, job.running)
+            _progress(layout, context, job.running)
             return
         column = layout.column(align=True)
         row = column.row(align=True)
@@ -251,14 +265,14 @@ class WOVENFIT_PT_flatten(_Panel, bpy.types.Panel):
                 layout.operator("wovenfit.select_faults", icon="RESTRICT_SELECT_OFF")
 
 
-def _progress(layout, running):
+def _progress(layout, context, running):
     if hasattr(layout, "progress"):
         layout.progress(factor=running.share, text=f"{running.stage} {100 * running.share:.0f} %")
     else:
-        # Blender before 4.0 has no bar.
-        done = round(20 * running.share)
-        layout.label(text="■" * done + "□" * (20 - done))
-        layout.label(text=f"{running.stage} {100 * running.share:.0f} %")
+        # Blender before 4.0 has no bar but that of a slider.
+        row = layout.row()
+        row.enabled = False
+        row.prop(context.window_manager, "wovenfit_progress", text=running.stage, slider=True)
     layout.operator("wovenfit.cancel", text="Cancel (Esc)", icon="X")
 
 
@@ -271,12 +285,10 @@ class WOVENFIT_PT_wishes(_Panel, bpy.types.Panel):
         limb = self.limb(context)
         if limb is None:
             return
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        column = self.layout.column(align=True)
         for field in design_fields():
             if field.section != "fabric":
-                field_row(layout, context, limb.wovenfit.design, field)
+                field_row(column, context, limb.wovenfit.design, field)
 
 
 class WOVENFIT_PT_settings(_Panel, bpy.types.Panel):
@@ -288,11 +300,9 @@ class WOVENFIT_PT_settings(_Panel, bpy.types.Panel):
         limb = self.limb(context)
         if limb is None:
             return
-        layout = self.layout
-        layout.use_property_split = True
-        layout.use_property_decorate = False
+        column = self.layout.column(align=True)
         for field in parameter_fields():
-            layout.prop(limb.wovenfit.settings, field.identifier)
+            field_row(column, context, limb.wovenfit.settings, field)
 
 
 class WOVENFIT_PT_result(_Panel, bpy.types.Panel):
@@ -318,8 +328,7 @@ class WOVENFIT_PT_result(_Panel, bpy.types.Panel):
             )
         if not found["converged"]:
             paragraph(layout, context, "The fit has not converged.", "ERROR", True)
-        for one in found["warnings"]:
-            note(layout, context, one, "ERROR")
+        notes(layout, context, kept, found["warnings"])
         layout.label(
             text=f"{found['width_mm']:.1f} × {found['height_mm']:.1f} mm, "
             f"{found['area_mm2'] / 100:.0f} cm²"
@@ -329,7 +338,7 @@ class WOVENFIT_PT_result(_Panel, bpy.types.Panel):
         _table(layout, context, found["pressures"])
         row = layout.row(align=True)
         row.prop(kept, "shown", text="")
-        row.operator("wovenfit.show_colours", icon="COLOR")
+        row.operator("wovenfit.show_colours", text="Colours", icon="COLOR")
         layout.operator("wovenfit.open_report", icon="URL")
 
 
@@ -338,24 +347,29 @@ def _table(layout, context, rows):
     if not rows:
         return
     unit = pressure_unit(context)
+    layout.label(text=f"Pressures in {unit}")
     box = layout.box().column(align=True)
-    head = box.row()
-    for text in ("#", "wanted", "computed", "strain"):
-        head.label(text=text)
+
+    def line(number, icon, wanted, computed):
+        row = box.split(factor=0.24)
+        row.label(text=number, icon=icon)
+        row = row.split(factor=0.46)
+        row.label(text=wanted)
+        row.label(text=computed)
+        return row
+
+    line("#", "NONE", "wanted", "computed")
     missed = sum(not one["met"] for one in rows)
     for number, one in enumerate(rows, 1):
-        row = box.row()
-        row.alert = not one["met"]
-        row.label(text=str(number), icon="CHECKMARK" if one["met"] else "ERROR")
-        row.label(text=pressure(one["asked_kpa"], unit))
-        row.label(text=pressure(one["got_kpa"], unit))
-        row.label(text=percent(one["warp_strain"]))
+        values = (pressure(one[key], unit).partition(" ")[0] for key in ("asked_kpa", "got_kpa"))
+        line(str(number), "CHECKMARK" if one["met"] else "CANCEL", *values)
         if one["reason"]:
-            paragraph(box, context, one["reason"])
+            paragraph(box, context, one["reason"], "BLANK1", alert=True)
     layout.label(
-        text=f"{len(rows) - missed} of {len(rows)} reached. Computed, not measured.",
-        icon="INFO" if missed else "CHECKMARK",
+        text=f"{len(rows) - missed} of {len(rows)} reached",
+        icon="CANCEL" if missed else "CHECKMARK",
     )
+    layout.label(text="Computed, not measured", icon="INFO")
 
 
 class WOVENFIT_PT_export(_Panel, bpy.types.Panel):
@@ -418,7 +432,17 @@ CLASSES = (
 
 def register():
     bpy.types.VIEW3D_MT_object.append(_in_object_menu)
+    bpy.types.WindowManager.wovenfit_progress = bpy.props.FloatProperty(
+        name="Progress",
+        description="How much of the pattern is done",
+        subtype="PERCENTAGE",
+        min=0.0,
+        max=100.0,
+        precision=0,
+        get=lambda self: 0.0 if job.running is None else 100.0 * job.running.share,
+    )
 
 
 def unregister():
+    del bpy.types.WindowManager.wovenfit_progress
     bpy.types.VIEW3D_MT_object.remove(_in_object_menu)

@@ -11,8 +11,13 @@ _FOLDER = "wovenfit/fabric"
 
 
 def fabric_fields():
-    """The numbers and the name of a fabric."""
-    return [field for field in design_fields() if field.section == "fabric"]
+    """The numbers and the name of a fabric; first those that every fabric has, in their order."""
+    first = list(dict.fromkeys(f"fabric.{key}" for fabric in FABRICS.values() for key in fabric))
+    fields = [field for field in design_fields() if field.section == "fabric"]
+    return sorted(
+        fields,
+        key=lambda one: (one.name not in first, first.index(one.name) if one.name in first else 0),
+    )
 
 
 class WOVENFIT_MT_fabrics(bpy.types.Menu):

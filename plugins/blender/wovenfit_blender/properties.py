@@ -77,8 +77,7 @@ def of_field(field: Field):
         bounds["min"] = field.least
     if field.most is not None:
         bounds["max"] = field.most
-    smallest = min(abs(x) for x in (field.default or 1.0, field.least or 1.0, 1.0) if x)
-    precision = 6 if smallest < 1e-3 else 3
+    precision = 6 if field.default and abs(field.default) < 1e-3 else 3
     default = 0.0 if field.optional else field.default
     if field.optional:
         made[f"use_{field.identifier}"] = bpy.props.BoolProperty(**given)
@@ -208,6 +207,9 @@ class WovenfitObject(bpy.types.PropertyGroup):
     error: bpy.props.StringProperty()
     faults: bpy.props.StringProperty()
     stale: bpy.props.BoolProperty()
+    full_notes: bpy.props.BoolProperty(
+        name="In full", description="Show of every warning also where it is and what to do"
+    )
     shown: bpy.props.EnumProperty(
         name="Colours",
         description="What the colour attribute shows, on limb and pattern",

@@ -184,7 +184,9 @@ def test_a_mark_whose_vertex_is_gone_keeps_its_place_and_says_so():
 def test_a_wish_above_the_limit_is_refused_until_the_limit_is_raised():
     limb = scene.tube()
     scene.pin(limb, 15 * scene.SIDES, 20.0)
-    scene.refused(bpy.ops.wovenfit.flatten, "13.3")
+    # In this host's words.
+    text = scene.refused(bpy.ops.wovenfit.flatten, "13.3", "pressure 1 is 20", "Piece and Limits")
+    assert "limits.max_kpa" not in text and "[0]" not in text, text
     design = limb.wovenfit.design
     design.use_limits_max_kpa = True
     design.limits_max_kpa_mmhg = 160.0

@@ -25,6 +25,8 @@ def test_an_automatic_seam_is_marked_from_end_to_end_and_stays_automatic():
     again = scene.flatten().pattern
     assert again.file("pattern.svg") == first
     assert any(one.code == "seam_automatic" for one in again.warnings)
+    said = " ".join(one["message"] for one in scene.result()["warnings"])
+    assert "mark another chain of edges as seam" in said and "`" not in said, said
 
 
 def test_the_designers_seam_is_taken_and_kept():
@@ -70,7 +72,9 @@ def test_sewn_edges_of_the_flat_mesh_are_equally_long():
     assert set(numbers) == set(range(len(seams) + 1))
     for number, (left, right) in enumerate(seams, 1):
         total = sum(
-            np.linalg.norm(places[mesh.edges[int(e)].vertices[0]] - places[mesh.edges[int(e)].vertices[1]])
+            np.linalg.norm(
+                places[mesh.edges[int(e)].vertices[0]] - places[mesh.edges[int(e)].vertices[1]]
+            )
             for e in np.flatnonzero(numbers == number)
         )
         scene.near(total, left + right, 0.05)

@@ -1,5 +1,8 @@
 """Dialogs are made from the library's tables, and what is typed reaches the library."""
 
+import re
+from pathlib import Path
+
 import bpy
 import scene
 
@@ -93,9 +96,7 @@ def test_the_fabrics_to_begin_with_can_be_taken_and_own_ones_kept():
         if path.name.startswith("my_power_net")
     ]
     assert len(kept) == 1
-    done = bpy.ops.script.execute_preset(
-        filepath=kept[0].path, menu_idname="WOVENFIT_MT_fabrics"
-    )
+    done = bpy.ops.script.execute_preset(filepath=kept[0].path, menu_idname="WOVENFIT_MT_fabrics")
     assert done == {"FINISHED"}
     scene.near(fabric.fabric_warp, 0.75, 1e-6)
     assert fabric.fabric_name == "my power net"
@@ -117,3 +118,16 @@ def test_the_pressure_model_is_the_one_that_is_chosen():
         strains[model] = scene.result()["pressures"][0]["warp_strain"]
     # On a cylinder the paper's formula gives pi/2 of Laplace's pressure, to first order.
     assert 1.4 < strains["laplace"] / strains["paper"] < 1.8, strains
+
+
+def test_every_icon_that_a_panel_shows_is_there():
+    icons = bpy.types.UILayout.bl_rna.functions["label"].parameters["icon"].enum_items.keys()
+    folder = Path(scene.addon("panels").__file__).parent
+    used = {
+        icon
+        for path in folder.glob("*.py")
+        for icon in re.findall(r'"([A-Z][A-Z_]+)"', path.read_text(encoding="utf-8"))
+        if f'icon="{icon}"' in path.read_text(encoding="utf-8")
+        or f'"{icon}", alert' in path.read_text(encoding="utf-8")
+    }
+    assert len(used) > 15 and used <= set(icons), used - set(icons)

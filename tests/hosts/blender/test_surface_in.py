@@ -104,7 +104,9 @@ def test_a_modifier_that_makes_faces_puts_the_result_onto_a_copy():
     worn = limb.wovenfit.worn
     assert worn is not None and "wovenfit" not in limb.data.uv_layers
     assert len(worn.data.polygons) == 4 * len(limb.data.polygons)
-    assert any("copy with the modifiers applied" in one["message"] for one in scene.result()["warnings"])
+    assert any(
+        "copy with the modifiers applied" in one["message"] for one in scene.result()["warnings"]
+    )
     assert np.isfinite(scene.values(worn.data, "wovenfit_warp_strain")).all()
     # Its pressure is found on the finer surface; and again it is the same copy.
     assert scene.result()["pressures"][0]["met"]

@@ -6,6 +6,7 @@ import re
 import textwrap
 
 from ..wovenfit import KPA_PER_MMHG, JobStage
+from .fields import design_fields, parameter_fields
 
 MMHG, KPA = "mmHg", "kPa"
 
@@ -53,13 +54,31 @@ def wrapped(text: str, width: int) -> list[str]:
     return lines
 
 
+def first_clause(text: str) -> str:
+    """What a note says before it says where and what to do."""
+    return re.split(r": |; ", text, maxsplit=1)[0]
+
+
 def in_host_words(text: str) -> str:
-    """The library's text where it names the command line's options, with the panels' names."""
+    """The library's text, with the panels' names where it names options and keys of files."""
     text = re.sub(r"its unit with `--units`", "its unit under Units in the panel Surface", text)
     text = re.sub(r"say `--units ([a-z]+)`", r"set Units to \1 in the panel Surface", text)
     text = re.sub(r"`--units ([a-z]+)`", r"Units \1 in the panel Surface", text)
-    return re.sub(
-        r"`--([a-z-]+)`",
-        lambda match: f"{match[1].replace('-', ' ').capitalize()} under Settings",
-        text,
+    text = re.sub(
+        r"`?pressures\[(\d+)\](\.kpa)?`?", lambda match: f"pressure {int(match[1]) + 1}", text
     )
+    text = re.sub(r" Then write \"mmhg\": [0-9.]+;", " Then set it in mmHg;", text)
+    text = text.replace("give `orientation`", "set the orientation by two vertices")
+    text = text.replace("draw a seam", "mark another chain of edges as seam")
+    return re.sub(r"`(?:--)?([a-z][a-z_.-]+)`|\b([a-z]+\.[a-z_]+)\b", _place_of, text)
+
+
+def _place_of(match: re.Match[str]) -> str:
+    """Where a setting or a wish stands in the panels; other words stay as they are."""
+    name = (match[1] or match[2]).replace("-", "_")
+    for fields, panel in ((parameter_fields(), "Settings"), (design_fields(), "Piece and Limits")):
+        for field in fields:
+            if field.name == name:
+                panel = "the panel Fabric" if field.section == "fabric" else panel
+                return f"{field.label.partition(' (')[0]} in {panel}"
+    return match[0]
