@@ -5,10 +5,10 @@
 - `wovenfit_blender-VERSION-PLATFORM.zip`, an extension for Blender 4.2 and later;
 - `wovenfit_blender-VERSION-PLATFORM-legacy.zip`, an add-on for Blender 3.4 to 4.1.
 
-The Python package and the library are put in from this checkout; the version is the workspace's. The
-extension is validated by Blender's own tool: the one that `--tool` names (every Blender from 4.2 on
-carries `blender_ext.py`), else the Blender that is on the path; without either it says so. The same
-checkout and library give the same bytes.
+The Python package and the library are put in from this checkout; the version is the workspace's.
+The extension is validated by Blender's own tool: the one that `--tool` names (each Blender from 4.2
+on carries `blender_ext.py`), else the Blender that is on the path; without either it says so. The
+same checkout and library give the same bytes.
 
 It needs what plugins/portable.py needs.
 """

@@ -4,16 +4,6 @@ Importing registers nothing. `plain/` does what needs no Blender, `wovenfit/` is
 with the shared library, put there when the add-on is built; everything else knows bpy.
 """
 
-bl_info = {
-    "name": "WovenFit",
-    "author": "The wovenfit authors",
-    "description": "Flat patterns of elastic medical braces from scanned limbs",
-    "blender": (3, 4, 0),
-    "version": (0, 0, 0),
-    "location": "3D View > Sidebar > WovenFit",
-    "category": "Object",
-}
-
 import bpy
 
 from . import (
@@ -28,6 +18,16 @@ from . import (
     properties,
     viewing,
 )
+
+bl_info = {
+    "name": "WovenFit",
+    "author": "The wovenfit authors",
+    "description": "Flat patterns of elastic medical braces from scanned limbs",
+    "blender": (3, 4, 0),
+    "version": (0, 0, 0),
+    "location": "3D View > Sidebar > WovenFit",
+    "category": "Object",
+}
 
 _MODULES = (preferences, properties, presets, marking, flatten, files, viewing, panels, drawing)
 """In the order in which they are registered."""

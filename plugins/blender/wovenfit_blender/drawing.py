@@ -1,4 +1,4 @@
-"""What is drawn into 3D views: wanted pressures with their values, orientation, pattern lines, scale."""
+"""What is drawn into 3D views: pressures with their values, orientation, pattern lines, scale."""
 
 import math
 from functools import lru_cache
@@ -103,7 +103,7 @@ def _wanted(context):
 
 
 def _place(limb, mark):
-    """Where a mark is drawn, in the limb's coordinates, and the surface's normal there, if known."""
+    """Where a mark is drawn, in the limb's coordinates, and the normal there, if known."""
     mesh = limb.data
     if 0 <= mark.vertex < len(mesh.vertices) and mark.vertices == len(mesh.vertices):
         vertex = mesh.vertices[mark.vertex]
@@ -263,14 +263,20 @@ def draw_deep():
         ends = [world @ _place(limb, one)[0] for one in (kept.first, kept.second)]
         _lines(ends, MARKER, 2.0)
     flat = kept.flat
-    if kept.result and flat is not None and flat.name in context.view_layer.objects:
-        if flat.visible_get() and flat.mode == "OBJECT" and OUTLINE in flat.data.attributes:
-            cut, sewn = _pattern_lines(flat.name, kept.solved)
-            with gpu.matrix.push_pop():
-                gpu.matrix.multiply_matrix(flat.matrix_world)
-                _lines(cut, CUT, 2.5)
-                _lines(sewn, SEWN, 3.0)
-                _lines(_arrow(read(kept.result)), MARKER, 2.0)
+    if (
+        kept.result
+        and flat is not None
+        and flat.name in context.view_layer.objects
+        and flat.visible_get()
+        and flat.mode == "OBJECT"
+        and OUTLINE in flat.data.attributes
+    ):
+        cut, sewn = _pattern_lines(flat.name, kept.solved)
+        with gpu.matrix.push_pop():
+            gpu.matrix.multiply_matrix(flat.matrix_world)
+            _lines(cut, CUT, 2.5)
+            _lines(sewn, SEWN, 3.0)
+            _lines(_arrow(read(kept.result)), MARKER, 2.0)
     gpu.state.blend_set("NONE")
     gpu.state.depth_test_set("NONE")
 

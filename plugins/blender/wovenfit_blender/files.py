@@ -21,7 +21,7 @@ def _solved(cls, context):
         return False
     if job.memory.find(limb.wovenfit.solved) is None:
         cls.poll_message_set(
-            "This pattern is no longer in memory, as after a file was opened: press Flatten again"
+            "This pattern is not in memory any more (a file was opened): press Flatten again"
         )
         return False
     return True
@@ -32,7 +32,7 @@ def _pattern(context):
 
 
 class WOVENFIT_OT_open_report(bpy.types.Operator):
-    """Open the report in the browser: warnings, pressures, limb and pattern in colour. Read it before you cut"""
+    """Open the report in the browser: read it before you cut"""
 
     bl_idname = "wovenfit.open_report"
     bl_label = "Open Report"
@@ -42,7 +42,7 @@ class WOVENFIT_OT_open_report(bpy.types.Operator):
         return _solved(cls, context)
 
     def execute(self, context):
-        # Not Blender's own temporary folder, which goes when Blender is closed: the page stays open.
+        # Not Blender's own temporary folder, which goes with Blender: the page stays open.
         folder = Path(tempfile.mkdtemp(prefix="wovenfit-"))
         page = folder / _PAGE
         page.write_bytes(_pattern(context).file(_PAGE))
@@ -135,10 +135,13 @@ class WOVENFIT_OT_export_all(bpy.types.Operator):
 
 
 def _folder(path):
-    """The folder of a path, else that of the Blender file, else the user's."""
-    if path and Path(path).parent.is_dir():
-        return str(Path(path).parent)
-    return str(Path(bpy.data.filepath).parent if bpy.data.filepath else Path.home()) + "/"
+    """The folder of a path that was given, else that of the Blender file, else the user's."""
+    if path:
+        given = Path(bpy.path.abspath(path))
+        for folder in (given, given.parent):
+            if folder.is_dir():
+                return f"{folder}/"
+    return f"{Path(bpy.data.filepath).parent if bpy.data.filepath else Path.home()}/"
 
 
 CLASSES = (WOVENFIT_OT_open_report, WOVENFIT_OT_export_file, WOVENFIT_OT_export_all)

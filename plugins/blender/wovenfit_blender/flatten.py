@@ -147,10 +147,14 @@ class WOVENFIT_OT_flatten(_Solves, bpy.types.Operator):
 
 
 class WOVENFIT_OT_update(_Solves, bpy.types.Operator):
-    """Solve again after a change, going on from the last pattern: a part of the time. Flatten begins anew; the two agree within the solver's tolerance"""
+    """Solve again after a change."""
 
     bl_idname = "wovenfit.update"
     bl_label = "Update"
+    bl_description = (
+        "Solve again after a change, going on from the last pattern: a part of the time. Flatten "
+        "begins anew; the two agree within the solver's tolerance"
+    )
     warm = True
 
     @classmethod

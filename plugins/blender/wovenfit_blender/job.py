@@ -14,7 +14,7 @@ from . import result
 from .plain.record import of_check, written
 from .plain.solve import Memory, Solving
 from .plain.wording import in_host_words
-from .wishes import design_of, parameters_of
+from .wishes import design_of, fields_of, parameters_of
 from .wovenfit import Cancelled, Check, SurfaceError, UnitError, WovenfitError
 
 memory = Memory()
@@ -96,9 +96,7 @@ def finish(context):
     with limbs.object_mode(limb):
         surface = ended.surface
         if surface.own and len(limb.data.loops) != len(surface.corner_vertices):
-            raise Refused(
-                f"the mesh of {limb.name!r} was changed while its pattern was made: press Flatten again"
-            )
+            raise Refused(f"the mesh of {limb.name!r} was changed meanwhile: press Flatten again")
         result.write(limb, surface, solved, ended.remarks, context)
     memory.keep(solved)
     return limb, solved
@@ -108,7 +106,6 @@ def drop():
     """Stops what runs and waits for it: the file or the add-on goes."""
     global running
     if running is not None:
-        running.solving.cancel()
         running.solving.close()
         running = None
 
@@ -124,7 +121,9 @@ def check(limb, context):
     try:
         with limbs.object_mode(limb):
             surface = limbs.read(limb, context)
-        with surface.mesh() as mesh, Check(mesh, None, parameters_of(limb)) as found:
+        # Of the design the facing bears on the check.
+        design = fields_of(limb, surface)
+        with surface.mesh() as mesh, Check(mesh, design, parameters_of(limb)) as found:
             kept.check = written(of_check(found))
             kept.error = ""
             kept.faults = _faults(surface, found.defects)
@@ -137,8 +136,8 @@ def _refused(limb, surface, error):
     """Why nothing was found, kept with the limb together with the faulty elements."""
     text = in_host_words(str(error))
     if isinstance(error, UnitError) and surface is not None:
-        text += (
-            f" One unit of {limb.name!r} is taken as {surface.unit:g} mm: see Units in the panel "
+        text = text.rstrip(".") + (
+            f". One unit of {limb.name!r} is taken as {surface.unit:g} mm: see Units in the panel "
             "Surface, the scene's unit scale and the object's scale."
         )
     limb.wovenfit.error = text

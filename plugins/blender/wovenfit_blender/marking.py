@@ -50,7 +50,7 @@ class WOVENFIT_OT_add_pressure(bpy.types.Operator):
     )
 
     MOST = 50
-    """Selected vertices that are taken for a slip of the hand beyond it: there is Paint for more."""
+    """More selected vertices are taken for a slip of the hand: there is Paint for them."""
 
     @classmethod
     def poll(cls, context):
@@ -65,7 +65,7 @@ class WOVENFIT_OT_add_pressure(bpy.types.Operator):
         if len(chosen) > self.MOST:
             self.report(
                 {"ERROR"},
-                f"{len(chosen)} vertices are selected, more than {self.MOST}: select single ones, or "
+                f"{len(chosen)} vertices are selected, over {self.MOST}: select single ones, or "
                 "paint the pressure",
             )
             return {"CANCELLED"}
@@ -161,7 +161,7 @@ class WOVENFIT_OT_select_pressure(bpy.types.Operator):
 
 
 class WOVENFIT_OT_paint(bpy.types.Operator):
-    """Paint where the brace is to press: weights times the highest pressure. Makes a vertex group if none is chosen"""
+    """Paint where the brace is to press: weights times the highest pressure"""
 
     bl_idname = "wovenfit.paint"
     bl_label = "Paint"
@@ -183,7 +183,7 @@ class WOVENFIT_OT_paint(bpy.types.Operator):
 
 
 class WOVENFIT_OT_set_orientation(bpy.types.Operator):
-    """Take two selected vertices (edit mode), the one near the body first: in the pattern they stand above each other"""
+    """Two selected vertices stand above each other in the pattern, the first near the body"""
 
     bl_idname = "wovenfit.set_orientation"
     bl_label = "Set from Two Vertices"

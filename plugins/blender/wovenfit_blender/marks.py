@@ -2,8 +2,8 @@
 
 A mark keeps its vertex's index, its place and how many vertices there were. While their number is
 the same a mark stays with its vertex, wherever that is moved, unless another vertex lies just where
-the mark was: then the vertices were renumbered. With another number it is the vertex that lies where
-the mark was; if there is none, the place itself is what counts, and the designer is told.
+the mark was: then the vertices were renumbered. With another number it is the vertex that lies
+where the mark was; if there is none, the place itself is what counts, and the designer is told.
 """
 
 from dataclasses import dataclass

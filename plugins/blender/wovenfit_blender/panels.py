@@ -1,8 +1,9 @@
-"""The tab "WovenFit" in the 3D view's sidebar, from the surface to the files, and the Object menu."""
+"""The tab "WovenFit" in the 3D view's sidebar, from surface to files, and the Object menu."""
 
 import bpy
 
 from . import job
+from .limb import unit_of
 from .plain.fields import Kind, design_fields, parameter_fields
 from .plain.record import read
 from .plain.wording import MMHG, first_clause, millimetres, pressure, wrapped
@@ -109,6 +110,9 @@ class WOVENFIT_PT_surface(_Panel, bpy.types.Panel):
         layout.use_property_split = True
         layout.use_property_decorate = False
         layout.prop(kept, "units")
+        row = layout.row()
+        row.alignment = "RIGHT"
+        row.label(text=f"1 unit is {unit_of(limb, context.scene):g} mm")
         layout.operator("wovenfit.check", icon="VIEWZOOM")
         if not kept.check:
             return
@@ -225,8 +229,8 @@ class WOVENFIT_PT_seams(_Panel, bpy.types.Panel):
         paragraph(
             layout,
             context,
-            "Seams are the edges marked as seam. On a tube without any the shortest way is taken and "
-            "then marked.",
+            "Seams are the edges marked as seam. On a tube without any the shortest way is taken "
+            "and then marked.",
             "INFO",
         )
         if limb.mode == "EDIT":

@@ -21,7 +21,7 @@ class WovenfitPreferences(bpy.types.AddonPreferences):
     )
     overlay: bpy.props.BoolProperty(
         name="Draw in the viewport",
-        description="Wanted pressures, orientation, outline, seams and the colour scale in 3D views",
+        description="Pressures, orientation, outline, seams and the colour scale in 3D views",
         default=True,
     )
 

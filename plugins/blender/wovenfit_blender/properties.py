@@ -193,7 +193,7 @@ class WovenfitObject(bpy.types.PropertyGroup):
     second: bpy.props.PointerProperty(type=WovenfitMark)
     only_selected: bpy.props.BoolProperty(
         name="Selected faces only",
-        description="The brace covers the faces that are selected in edit mode, not all of the scan. "
+        description="The brace covers the faces that are selected in edit mode alone. "
         "Pressure is still read off all of it",
         update=changed,
     )

@@ -3,7 +3,6 @@
 import bpy
 import numpy as np
 
-from . import limb as limbs
 from .limb import AUTO_SEAM, got
 from .plain import colours
 from .plain.record import of_pattern, written
@@ -227,7 +226,7 @@ def _put(mesh, name, kind, domain, value, values):
 
 
 def faulty(surface, vertices, triangles):
-    """The vertices and polygons of the limb's own mesh that faulty elements are, if they are any."""
+    """The vertices and polygons of the limb's own mesh that faulty elements are."""
     if not surface.own:
         return [], []
     triangles = np.asarray(triangles, np.int64)

@@ -16,8 +16,7 @@ def design_of(limb, surface, mesh, context):
         WovenfitError: if a wish cannot be; its text says which.
     """
     kept = limb.wovenfit
-    design = Design(unit=surface.unit)
-    _set_fields(design, kept.design)
+    design = fields_of(limb, surface)
     remarks = []
     points = points_of(limb.data)
     if kept.source == PAINTED:
@@ -33,8 +32,8 @@ def design_of(limb, surface, mesh, context):
                 design.add_pressures(limbs.in_world(limb, found.place[None]), kpa)
             if found.vertex < 0:
                 remarks.append(
-                    f"the vertex of pressure {number} is gone since the mesh was edited: it is asked "
-                    "for where the vertex was; select another vertex and Move, or remove it"
+                    f"the vertex of pressure {number} is gone since the mesh was edited: it is "
+                    "asked for where the vertex was; select another vertex and Move, or remove it"
                 )
     if kept.oriented:
         ends = []
@@ -62,6 +61,13 @@ def design_of(limb, surface, mesh, context):
         if not surface.selected.all():
             design.set_region_triangles(mesh, surface.selected)
     return design, remarks
+
+
+def fields_of(limb, surface):
+    """A design of those wishes alone that are no places."""
+    design = Design(unit=surface.unit)
+    _set_fields(design, limb.wovenfit.design)
+    return design
 
 
 def parameters_of(limb):
@@ -100,13 +106,13 @@ def _painted(limb, context):
     if kept.group not in limb.vertex_groups:
         named = f"the vertex group {kept.group!r} is not there" if kept.group else "no vertex group"
         raise DesignError(
-            f"pressures are to be painted, and {named}: choose one in the panel Pressures, or press "
-            "Paint there"
+            f"pressures are to be painted, and {named}: choose one in the panel Pressures, or "
+            "press Paint there"
         )
     asked = limbs.weights(limb, context, kept.group) * exact(kept.most_kpa)
     if not np.any(asked > 0.0):
         raise DesignError(
-            f"nothing is painted: all weights of the vertex group {kept.group!r} are 0; paint where "
-            "the brace is to press"
+            f"nothing is painted: all weights of the vertex group {kept.group!r} are 0; paint "
+            "where the brace is to press"
         )
     return asked

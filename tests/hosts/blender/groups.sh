@@ -67,12 +67,16 @@ blender_needs
 mkdir -p $blender_work $blender_pictures
 rm -rf $blender_work/packages
 # Blender's own tool, which the wheel carries, validates the extension.
-check bpy_of 3.11 5.0.1
+bpy_of 3.11 5.0.1
 blender_tool=$(echo target/hosts/bpy-5.0.1/lib/python3.11/site-packages/bpy/*/scripts/addons_core/bl_pkg/cli/blender_ext.py)
+check test -f "$blender_tool"
 check python3 plugins/blender/build.py --out $blender_work/packages --tool "$blender_tool"
 # Loadable where glibc is of 2012.
 check python3 $blender_tests/packages.py $blender_work/packages "$blender_tool"
 check cargo build --release --quiet --package wovenfit
+check $packaged/bin/ruff check --quiet --config plugins/blender/ruff.toml plugins/blender $blender_tests
+check $packaged/bin/ruff format --quiet --check --config plugins/blender/ruff.toml plugins/blender \
+    $blender_tests
 check target/release/wovenfit sample elbow --triangles 6000 --out $blender_work/elbow.obj
 check target/release/wovenfit sample elbow --triangles 120000 --out $blender_work/large.obj
 blender_env=(

@@ -1,4 +1,4 @@
-"""Installs a built package into this Blender as a user does, and enables it; says its module's name.
+"""Installs a built package into this Blender as a user does, and enables it.
 
 The packages are found in the folder that the environment's WOVENFIT_PACKAGES names: the extension
 for Blender 4.2 and later, else the legacy add-on.

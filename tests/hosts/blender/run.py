@@ -3,9 +3,9 @@
     blender -b --factory-startup --python-exit-code 1 --python run.py     (Blender itself)
     python run.py                                                         (PyPI's bpy)
 
-Read from the environment: WOVENFIT_PACKAGES (the folder with the packages), WOVENFIT_LIMB (an OBJ of
-`wovenfit sample`, its design beside it), WOVENFIT_PROGRAM (the command line), WOVENFIT_SCRATCH (a
-folder), WOVENFIT_ONLY (tests whose name contains it). The last line says `N passed, M failed`.
+Read from the environment: WOVENFIT_PACKAGES (the folder with the packages), WOVENFIT_LIMB (an OBJ
+of `wovenfit sample`, its design beside it), WOVENFIT_PROGRAM (the command line), WOVENFIT_SCRATCH
+(a folder), WOVENFIT_ONLY (tests whose name contains it). The last line says `N passed, M failed`.
 """
 
 import importlib

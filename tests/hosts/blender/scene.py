@@ -115,7 +115,7 @@ RADIUS, LENGTH, SIDES, RINGS = 45.0, 120.0, 48, 31
 
 
 def tube(quads=False, unit=0.001):
-    """A cylinder along z, open at both ends; ring r has the vertices r SIDES … (r + 1) SIDES - 1."""
+    """A cylinder along z, open at both ends; ring r begins at vertex r SIDES."""
     angle = 2 * np.pi * np.arange(SIDES) / SIDES
     points, faces = [], []
     for ring in range(RINGS):

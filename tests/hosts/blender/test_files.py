@@ -55,8 +55,10 @@ def test_the_files_are_the_command_lines_byte_for_byte():
     ]
     (theirs / "design.json").write_text(json.dumps({"units": "m", "pressures": rows}))
     subprocess.run(
-        [PROGRAM, "flatten", theirs / "limb.ply", "--design", theirs / "design.json"]
-        + ["--out", theirs, "--quiet"],
+        [
+            *(PROGRAM, "flatten", theirs / "limb.ply", "--design", theirs / "design.json"),
+            *("--out", theirs, "--quiet"),
+        ],
         check=True,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,

@@ -1,4 +1,4 @@
-"""Pressures at vertices and painted: what they give, and what becomes of them when the mesh changes."""
+"""Pressures at vertices and painted: what they give, and what edits of the mesh do to them."""
 
 import json
 

@@ -1,5 +1,7 @@
 """Seams as marked edges, orientation by two vertices, region by selected faces."""
 
+import itertools
+
 import bpy
 import numpy as np
 import scene
@@ -33,7 +35,7 @@ def test_the_designers_seam_is_taken_and_kept():
     limb = scene.tube()
     side = 12
     line = [ring * scene.SIDES + side for ring in range(scene.RINGS)]
-    wanted = {tuple(sorted(pair)) for pair in zip(line, line[1:])}
+    wanted = {tuple(sorted(pair)) for pair in itertools.pairwise(line)}
     for edge in limb.data.edges:
         edge.use_seam = tuple(sorted(edge.vertices)) in wanted
     pattern = scene.flatten().pattern

@@ -1,7 +1,7 @@
 """Blender's own unwrap beside ours, on the same cut limb: strain and seam mismatch, as a table.
 
-Run as run.py is, in a Blender that has all three of its methods (4.3 and later). What is measured and
-how stands in tests/peers/README.md, whose measures these are.
+Run as run.py is, in a Blender that has all three of its methods (4.3 and later). What is measured
+and how stands in tests/peers/README.md, whose measures these are.
 """
 
 import os
@@ -69,9 +69,7 @@ def main():
     patterns.update({name: unwrapped(cut, options) for name, options in METHODS.items()})
     print()
     print(f"elbow, {len(faces)} triangles, warp strain at its {len(rows)} pressures")
-    print(
-        f"{'':26}{'seam edge':>10}{'whole seam':>12}{'stretch':>9}{'flips':>7}  strain at the points"
-    )
+    print(f"{'':26}{'seam edge':>10}{'whole seam':>12}{'stretch':>9}{'flips':>7}  at the points")
     print(f"{'wanted':64}  " + "  ".join(f"{100 * x:5.1f} %" for x in wanted))
     found = {}
     for name, flat in patterns.items():
@@ -79,8 +77,8 @@ def main():
         strains = warp_strains(cut, flat, points)
         found[name] = edge, whole, float(np.abs(strains - wanted).max())
         print(
-            f"{name:26}{100 * edge:8.2f} %{100 * whole:10.2f} %{measure.stretch_rms(cut, flat):9.3f}"
-            f"{measure.flips(cut.faces, flat):7}  "
+            f"{name:26}{100 * edge:8.2f} %{100 * whole:10.2f} %"
+            f"{measure.stretch_rms(cut, flat):9.3f}{measure.flips(cut.faces, flat):7}  "
             + "  ".join(f"{100 * x:5.1f} %" for x in strains)
         )
     print(
@@ -104,7 +102,8 @@ def main():
         print(f"FAILED: {one}")
     checks = 2 + 2 * len(found)
     print(
-        f"beside Blender {bpy.app.version_string}: {checks - len(failed)} passed, {len(failed)} failed"
+        f"beside Blender {bpy.app.version_string}: "
+        f"{checks - len(failed)} passed, {len(failed)} failed"
     )
     sys.stdout.flush()
     os._exit(1 if failed else 0)

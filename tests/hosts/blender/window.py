@@ -3,8 +3,8 @@
     xvfb-run -a -s "-screen 0 1280x900x24" blender --factory-startup --enable-event-simulate \
         --python-exit-code 1 -p 0 0 1280 900 --python window.py
 
-The environment is that of run.py; WOVENFIT_PICTURES is the folder for the pictures, WOVENFIT_LARGE a
-larger limb, whose pattern takes long enough to be cancelled. Positions of buttons are those of
+The environment is that of run.py; WOVENFIT_PICTURES is the folder for the pictures, WOVENFIT_LARGE
+a larger limb, whose pattern takes long enough to be cancelled. Positions of buttons are those of
 Debian's Blender 3.4.1 at the size above; where one is not hit a check fails and the last picture
 shows what is there. The last line says `N passed, M failed`.
 """
@@ -17,10 +17,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-import bpy  # noqa: E402  Blender's module, after the path
-import numpy as np  # noqa: E402
-import scene  # noqa: E402
-from install import install  # noqa: E402
+import bpy
+import numpy as np
+import scene
+from install import install
 
 PICTURES = Path(os.environ["WOVENFIT_PICTURES"])
 SEEN = {"passed": 0, "failed": 0, "drawn": 0}
@@ -150,7 +150,7 @@ def steps():
     picture("1-panels")
 
     # Fabric and seams away, so that all that is pressed below is in sight.
-    for from_top in (353, 382):
+    for from_top in (379, 408):
         yield from click(*sidebar(60, from_top))
     picture("2-closed")
 
@@ -159,13 +159,13 @@ def steps():
     front = nearest(limb, [0.02, -0.04, 0.0])
     select_vertex(limb, front)
     yield 0.3
-    yield from click(*sidebar(173, 209))
+    yield from click(*sidebar(173, 235))
     kept = limb.wovenfit
     check(len(kept.pressures) == 2, "Add pressure was not pressed")
     check(len(kept.pressures) == 2 and kept.pressures[1].mark.vertex == front, "another vertex")
     picture("3-added")
     # With the mouse over a field Enter opens it for typing.
-    x, y = sidebar(100, 239)
+    x, y = sidebar(100, 265)
     move(x, y)
     yield 0.2
     for name, letter in (("RET", ""), ("ONE", "1"), ("FIVE", "5"), ("RET", "")):
@@ -183,7 +183,7 @@ def steps():
     # Flatten.
     before = set(bpy.data.objects)
     bpy.ops.ed.undo_push(message="before Flatten")
-    yield from click(*sidebar(60, 445))
+    yield from click(*sidebar(60, 471))
     yield from until(lambda: kept.flat is not None, 30)
     check(kept.flat is not None and not kept.error, f"Flatten: {kept.error}")
     check(len(set(bpy.data.objects) - before) == 1, "Flatten made no object, or several")
@@ -199,6 +199,9 @@ def steps():
     picture("6-result")
     yield from scroll_to_top()
 
+    # A file through the file dialog, which takes the place of the 3D view for once.
+    yield from export()
+
     # One step back.
     name = limb.name
     yield from key("Z", ctrl=True)
@@ -208,6 +211,33 @@ def steps():
     check(len(limb.wovenfit.pressures) == 2, "Ctrl Z took more than one step")
     picture("7-undone")
     yield from cancel_a_large_one()
+
+
+def export():
+    """Export One File: the dialog, and Enter."""
+    into = Path(os.environ["WOVENFIT_SCRATCH"]) / "window"
+    into.mkdir(exist_ok=True)
+    pattern = scene.solved().pattern
+    bpy.context.preferences.view.filebrowser_display_type = "SCREEN"
+    with bpy.context.temp_override(window=window(), area=view()[0]):
+        bpy.ops.wovenfit.export_file("INVOKE_DEFAULT", filepath=f"{into}/", file="pattern.svg")
+    yield 1.0
+    area = next((one for one in window().screen.areas if one.type == "FILE_BROWSER"), None)
+    check(area is not None, "no file dialog opened")
+    picture("6-export")
+    if area is None:
+        return
+    x, y = area.x + area.width // 2, area.y + area.height // 2
+    move(x, y)
+    yield 0.3
+    for value in ("PRESS", "RELEASE"):
+        window().event_simulate(type="RET", value=value, x=x, y=y)
+        yield 0.2
+    written = into / "pattern.svg"
+    yield from until(written.exists, 5)
+    check(written.exists(), "the file dialog wrote nothing")
+    check(written.exists() and written.read_bytes() == pattern.file("pattern.svg"), "other bytes")
+    yield 0.5
 
 
 def cancel_a_large_one():
@@ -220,7 +250,7 @@ def cancel_a_large_one():
     yield 0.5
     area, regions = view()
     job = scene.addon("job")
-    yield from click(*sidebar(60, 445))
+    yield from click(*sidebar(60, 471))
     yield from until(lambda: job.running is not None, 5)
     check(job.running is not None, "Flatten does not run")
     # The window is alive: the view zooms while the solver works.
@@ -276,7 +306,7 @@ def run():
 
     def tick():
         try:
-            if time.monotonic() - begun > 150:
+            if time.monotonic() - begun > 330:
                 raise TimeoutError("the window took too long")
             return next(going)
         except StopIteration:

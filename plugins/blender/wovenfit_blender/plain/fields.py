@@ -66,7 +66,7 @@ class Field:
 
 
 def exact(value: float) -> float:
-    """The decimal number that was typed into a field that holds 32 bits: 0.01, not 0.00999999978."""
+    """The decimal that was typed into a field of 32 bits: 0.01, not 0.00999999978."""
     return float(str(np.float32(value)))
 
 

@@ -1,4 +1,4 @@
-"""Words for a narrow panel: numbers with units, wrapped lines, the host's names for the library's."""
+"""Words for a narrow panel: numbers with units, wrapped lines, the host's names of things."""
 
 from __future__ import annotations
 
@@ -54,6 +54,24 @@ def wrapped(text: str, width: int) -> list[str]:
     return lines
 
 
+_REMEDIES = (
+    ("give `orientation`", "set the orientation by two vertices"),
+    ("draw a seam", "mark another chain of edges as seam"),
+    (
+        "give two region planes, one across the limb at each end of the brace",
+        "select the faces between the two ends of the brace and switch on Selected faces only, or "
+        "delete what lies beyond its ends",
+    ),
+    (
+        "the design must give a region, two planes across the limb between which the brace lies",
+        "select the faces between the two ends of the brace and switch on Selected faces only, or "
+        "delete what lies beyond its ends",
+    ),
+    ("by region planes", "by Selected faces only"),
+)
+"""What the library advises that has another name here, or is done another way."""
+
+
 def first_clause(text: str) -> str:
     """What a note says before it says where and what to do."""
     return re.split(r": |; ", text, maxsplit=1)[0]
@@ -68,8 +86,8 @@ def in_host_words(text: str) -> str:
         r"`?pressures\[(\d+)\](\.kpa)?`?", lambda match: f"pressure {int(match[1]) + 1}", text
     )
     text = re.sub(r" Then write \"mmhg\": [0-9.]+;", " Then set it in mmHg;", text)
-    text = text.replace("give `orientation`", "set the orientation by two vertices")
-    text = text.replace("draw a seam", "mark another chain of edges as seam")
+    for theirs, ours in _REMEDIES:
+        text = text.replace(theirs, ours)
     return re.sub(r"`(?:--)?([a-z][a-z_.-]+)`|\b([a-z]+\.[a-z_]+)\b", _place_of, text)
 
 
