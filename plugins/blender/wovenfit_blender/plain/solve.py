@@ -1,5 +1,8 @@
 """A pattern on its way: a job that is polled, and the limb that it leaves for the next one.
 
+The library has threads of its own. There is none of Python's: objects of Blender that Python lets go
+on another thread than Blender's are not safe.
+
 A warm start goes on from an earlier pattern on the same surface. Where the wishes need another
 preparation (seams, region, a setting of the stages before the fit) it starts anew by itself.
 """
@@ -7,21 +10,12 @@ preparation (seams, region, a setting of the stages before the fit) it starts an
 from __future__ import annotations
 
 import hashlib
-import threading
 import uuid
 from collections import OrderedDict
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from ..wovenfit import (
-    Cancelled,
-    Job,
-    JobStage,
-    JobState,
-    Mesh,
-    PreparedForAnother,
-    WovenfitError,
-)
+from ..wovenfit import Job, JobStage, Mesh, PreparedForAnother, WovenfitError
 from .wording import STAGES
 
 if TYPE_CHECKING:
@@ -105,9 +99,6 @@ class Solving:
         self._surface = surface
         self.cancelled = False
         self._warm = earlier is not None
-        self._found: Solved | None = None
-        self._failed: WovenfitError | None = None
-        self._reading: threading.Thread | None = None
         if earlier is None:
             self._job = Job(mesh, design, parameters)
         else:
@@ -115,38 +106,23 @@ class Solving:
 
     def wait(self, seconds: float) -> bool:
         """Waits at most so long; whether it has ended. What it ended with `outcome` says."""
-        if self._reading is None:
-            if not self._job.wait(seconds):
+        if not self._job.wait(seconds):
+            return False
+        if self._warm and not self.cancelled:
+            try:
+                self._job.result().close()
+            except PreparedForAnother:
+                self._warm = False
+                self._job = Job(*self._given)
                 return False
-            self._reading = threading.Thread(target=self._read, daemon=True)
-            self._reading.start()
-        self._reading.join(seconds)
-        if self._reading.is_alive():
-            return False
-        if isinstance(self._failed, PreparedForAnother) and self._warm and not self.cancelled:
-            self._warm, self._failed, self._reading = False, None, None
-            self._job = Job(*self._given)
-            return False
+            except WovenfitError:
+                return True
         return True
-
-    def _read(self) -> None:
-        """Takes the result, and what takes longest to find in it, on a thread of its own."""
-        try:
-            pattern = self._job.result()
-            if not self.cancelled:
-                # The way back to the mesh is found with the first of these, in a second or two.
-                _ = pattern.given_corner_coordinates, pattern.given_pressure_kpa
-            self._found = Solved(pattern, pattern.prepared(), self._surface, self._warm)
-        except WovenfitError as error:
-            self._failed = error
 
     def progress(self) -> tuple[float, str]:
         """How much is done, from 0 to 1, and what is being done."""
         now = self._job.progress()
-        stages = JobStage.REPORT + 2
-        if now.state is not JobState.RUNNING:
-            return (JobStage.REPORT + 1) / stages, "Finding the way back"
-        return (now.stage + now.fraction) / stages, STAGES[now.stage]
+        return (now.stage + now.fraction) / (JobStage.REPORT + 1), STAGES[now.stage]
 
     def cancel(self) -> None:
         """Asks it to stop."""
@@ -159,16 +135,10 @@ class Solving:
         Raises:
             WovenfitError: why it found nothing; `Cancelled` if it was asked to stop.
         """
-        if self.cancelled:
-            raise Cancelled("the job was cancelled")
-        if self._failed is not None:
-            raise self._failed
-        assert self._found is not None, "it is asked before it has ended"
-        return self._found
+        pattern = self._job.result()
+        return Solved(pattern, pattern.prepared(), self._surface, self._warm)
 
     def close(self) -> None:
         """Stops it if it still runs, and waits for that."""
         self.cancel()
-        if self._reading is not None:
-            self._reading.join()
         self._job.close()
