@@ -1,7 +1,7 @@
 """A pattern on its way: a job that is polled, and the limb that it leaves for the next one.
 
-The library has threads of its own. There is none of Python's: objects of Blender that Python lets go
-on another thread than Blender's are not safe.
+The library has threads of its own. There is none of Python's: objects of Blender that Python lets
+go on another thread than Blender's are not safe.
 
 A warm start goes on from an earlier pattern on the same surface. Where the wishes need another
 preparation (seams, region, a setting of the stages before the fit) it starts anew by itself.
