@@ -78,12 +78,10 @@ check $packaged/bin/ruff check --quiet --config plugins/blender/ruff.toml plugin
 check $packaged/bin/ruff format --quiet --check --config plugins/blender/ruff.toml plugins/blender \
     $blender_tests
 check target/release/wovenfit sample elbow --triangles 6000 --out $blender_work/elbow.obj
-check target/release/wovenfit sample elbow --triangles 120000 --out $blender_work/large.obj
 blender_env=(
     env -u WOVENFIT_LIBRARY -u WOVENFIT_ONLY
     WOVENFIT_PACKAGES="$PWD/$blender_work/packages"
     WOVENFIT_LIMB="$PWD/$blender_work/elbow.obj"
-    WOVENFIT_LARGE="$PWD/$blender_work/large.obj"
     WOVENFIT_PROGRAM="$PWD/target/release/wovenfit"
     WOVENFIT_SCRATCH="$scratch/blender-files"
     WOVENFIT_PICTURES="$PWD/$blender_pictures"
