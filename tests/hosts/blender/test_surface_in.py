@@ -1,5 +1,6 @@
 """What the add-on reads: units, scales, modifiers, polygons; and what it refuses."""
 
+import itertools
 import json
 
 import bpy
@@ -68,15 +69,18 @@ def test_scene_scale_and_object_scale_give_the_same_pattern():
 
 
 def test_a_mirrored_limb_is_as_wide_and_not_inside_out():
-    limb, _ = scene.arm()
+    limb = scene.pinned_arm()
     scene.flatten()
     width = width_of(limb)
     scene.clear()
-    limb, _ = scene.arm()
+    limb = scene.pinned_arm()
     limb.scale = (-1.0, 1.0, 1.0)
+    # As the triangles face, not as the shape shows: inside out nothing would press.
+    limb.wovenfit.design.facing = "outward"
     bpy.context.view_layer.update()
     scene.flatten()
     scene.near(width_of(limb), width, 0.5)
+    assert all(row["met"] for row in scene.result()["pressures"])
     # The flat mesh shows its outside: all normals along its own z.
     normals = scene.vectors(limb.wovenfit.flat.data.polygons, "normal")
     assert (normals[:, 2] > 0.99).all()
@@ -131,6 +135,27 @@ def test_quads_are_split_and_mapped_back_corner_by_corner():
     area = 0.5 * np.abs((x * np.roll(y, -1, 1) - np.roll(x, -1, 1) * y).sum(axis=1)).sum()
     scene.near(area / pattern.figures.area_mm2, 1.0, 0.002)
     assert corners.shape == (48 * 30, 4)
+
+
+def test_quads_through_which_a_seam_runs_are_not_torn():
+    limb = scene.tube(quads=True)
+    # A staircase of edges, which is drawn straight and so runs through faces.
+    steps = [(0, 5)]
+    for ring in range(1, scene.RINGS):
+        steps.append((ring, steps[-1][1]))
+        if ring % 3 == 0 and ring < scene.RINGS - 1:
+            steps.append((ring, steps[-1][1] + 1))
+    line = [ring * scene.SIDES + side for ring, side in steps]
+    wanted = {tuple(sorted(pair)) for pair in itertools.pairwise(line)}
+    for edge in limb.data.edges:
+        edge.use_seam = tuple(sorted(edge.vertices)) in wanted
+    pattern = scene.flatten().pattern
+    flat = pattern.given_corner_coordinates
+    split = np.linalg.norm(flat[0::2, 0] - flat[1::2, 0], axis=1) > 20.0
+    assert split.any(), "the seam runs through no face: nothing is tried here"
+    four = (scene.corner_uv(limb.data) * 1000.0).reshape(-1, 4, 2)
+    sides = np.linalg.norm(four - np.roll(four, -1, axis=1), axis=2)
+    assert sides.max() < 1.3 * scene.GIRTH / scene.SIDES, sides.max()
 
 
 def test_without_a_mesh_nothing_can_be_pressed():
