@@ -37,16 +37,20 @@ from .errors import (
     UnknownStatus,
     WovenfitError,
 )
+from .fabrics import FABRICS
+from .given import polygon_corners, torn_edges
 from .job import Job, Prepared, Progress
 from .library import version
-from .mesh import Mesh
+from .mesh import KPA_PER_MMHG, Mesh
 from .notes import Defect, Note
 from .parameters import Parameter, Parameters, parameter_table
 from .pattern import FILES, Figures, Pattern, Pressure, Seam
 
 __all__ = [
     "ABI_VERSION",
+    "FABRICS",
     "FILES",
+    "KPA_PER_MMHG",
     "NONE",
     "AbiMismatch",
     "BufferTooSmall",
@@ -93,5 +97,7 @@ __all__ = [
     "design_schema",
     "flatten",
     "parameter_table",
+    "polygon_corners",
+    "torn_edges",
     "version",
 ]

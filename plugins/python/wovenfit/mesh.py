@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 Unit = Union[str, float]
 """A unit of length: "mm", "cm", "m" or "in", or the millimetres in one unit."""
 
+KPA_PER_MMHG = 0.133322
+"""kPa in one mmHg, as the library has it, for hosts that show either."""
+
 
 def millimetres(unit: Unit) -> float:
     """The millimetres in one unit.

@@ -1,0 +1,1 @@
+"""What the add-on does without Blender: nothing in this folder imports bpy."""
