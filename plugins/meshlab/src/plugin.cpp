@@ -1,0 +1,146 @@
+#include "plugin.h"
+
+#include <QApplication>
+
+#include "dialog.h"
+#include "filters.h"
+
+namespace {
+
+// The host's dialog shows HTML; a script without windows shows the text as it is.
+QString for_dialog(const QString& text) {
+    const bool windows = qobject_cast<QApplication*>(QCoreApplication::instance()) != nullptr;
+    return windows ? text.toHtmlEscaped().replace('\n', "<br>") : text;
+}
+
+// A flag that is up as long as this lives.
+class Raised {
+public:
+    explicit Raised(bool& flag) : flag(flag) { flag = true; }
+    ~Raised() { flag = false; }
+    Raised(const Raised&) = delete;
+    Raised& operator=(const Raised&) = delete;
+
+private:
+    bool& flag;
+};
+
+} // namespace
+
+WovenFitPlugin::WovenFitPlugin() {
+    typeList = {Flatten, Check};
+    for (const int filter : typeList) {
+        // Not filterName(action), which would ask the action's text.
+        actionList.push_back(new QAction(WovenFitPlugin::filterName(filter), this));
+    }
+}
+
+QString WovenFitPlugin::filterName(int filter) const {
+    return filter == Flatten ? "WovenFit: Flatten to Pattern" : "WovenFit: Check Surface";
+}
+
+QString WovenFitPlugin::filterInfo(int filter) const {
+    if (filter == Check) {
+        return "Says what a scanned limb is (size, girths, openings, curvature) and every defect that stops "
+               "it from being flattened, with its place and what to do, in the log; selects the faces and "
+               "vertices that the defects are about.";
+    }
+    return "Makes the flat pattern of an elastic brace from the scan of a limb: cut from a woven fabric of "
+           "the stiffness given and sewn, it presses, by the model, as asked at the points that a design "
+           "file, picked points or the vertex quality name.<br>The pattern becomes a new layer, flat and at "
+           "true size in mm; the scan gets it as texture coordinates; the log has the table of pressures and "
+           "the warnings. Pressures are computed, not measured.<br>See: <i>Wang &amp; Tang</i>, <b>\"Woven "
+           "Model Based Geometric Design of Elastic Medical Braces\"</b>.";
+}
+
+int WovenFitPlugin::postCondition(HostAction* action) const {
+    // With VERTNUMBER MeshLab offers no preview, which would be another run.
+    return ID(action) == Flatten
+               ? MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_VERTNUMBER | MeshModel::MM_FACENUMBER
+               : MeshModel::MM_VERTFLAGSELECT | MeshModel::MM_FACEFLAGSELECT | MeshModel::MM_VERTNUMBER;
+}
+
+HostPlugin::FilterClass WovenFitPlugin::filter_class(HostAction* action) const {
+    return ID(action) == Flatten ? Texture : FilterClass(Selection | Cleaning);
+}
+
+RichParameterList WovenFitPlugin::dialog(HostAction* action) const {
+    return ID(action) == Flatten ? flatten_dialog() : check_dialog();
+}
+
+Results WovenFitPlugin::run(HostAction* action, const RichParameterList& values, MeshDocument& document,
+                            vcg::CallBackPos* progress) {
+    const Say line = [this](const QString& text) { say(text); };
+    try {
+        if (const QString other = mismatch(); !other.isEmpty()) {
+            throw Refusal(other);
+        }
+        if (running) {
+            throw Refusal("a filter of WovenFit is still running: wait until it has ended");
+        }
+        const Raised raised(running);
+        return ID(action) == Flatten ? flatten(values, document, progress, line)
+                                     : check(values, document, progress, line);
+    } catch (const std::exception& error) {
+        // meshlabserver shows no error text of a filter: the log has it, too.
+        const QString text = QString::fromUtf8(error.what());
+        say("error: " + text);
+        throw Refusal(text);
+    } catch (...) {
+        throw Refusal("a fault of WovenFit without a text: please report it with the mesh and the settings");
+    }
+}
+
+#ifdef WOVENFIT_MESHLAB_2020
+
+HostPlugin::FilterClass WovenFitPlugin::getClass(QAction* action) { return filter_class(action); }
+
+void WovenFitPlugin::initParameterSet(QAction* action, MeshDocument&, RichParameterList& parameters) {
+    // In another MeshLab the filter has no dialog: it is run at once and says why not.
+    if (mismatch().isEmpty()) {
+        parameters = dialog(action);
+    }
+}
+
+bool WovenFitPlugin::applyFilter(QAction* action, MeshDocument& document, const RichParameterList& values,
+                                 vcg::CallBackPos* progress) {
+    try {
+        for (const auto& [name, value] : run(action, values, document, progress)) {
+            say(QString("%1 = %2").arg(QString::fromStdString(name), value.toString()));
+        }
+        return true;
+    } catch (const std::exception& refused) {
+        errorMessage = for_dialog(QString::fromUtf8(refused.what()));
+        return false;
+    }
+}
+
+void WovenFitPlugin::say(const QString& line) { Log(GLLogStream::FILTER, line.toUtf8().constData()); }
+
+#else
+
+QString WovenFitPlugin::pythonFilterName(int filter) const {
+    return filter == Flatten ? "wovenfit_flatten_to_pattern" : "wovenfit_check_surface";
+}
+
+HostPlugin::FilterClass WovenFitPlugin::getClass(HostAction* action) const { return filter_class(action); }
+
+RichParameterList WovenFitPlugin::initParameterList(HostAction* action, const MeshDocument&) {
+    return dialog(action);
+}
+
+std::map<std::string, QVariant> WovenFitPlugin::applyFilter(HostAction* action,
+                                                            const RichParameterList& values,
+                                                            MeshDocument& document, unsigned int& changed,
+                                                            vcg::CallBackPos* progress) {
+    try {
+        changed = static_cast<unsigned int>(postCondition(action));
+        return run(action, values, document, progress);
+    } catch (const std::exception& refused) {
+        throw MLException(for_dialog(QString::fromUtf8(refused.what())));
+    }
+}
+
+void WovenFitPlugin::say(const QString& line) { log(GLLogStream::FILTER, line.toUtf8().constData()); }
+
+#endif
