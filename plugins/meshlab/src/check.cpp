@@ -19,6 +19,13 @@ Results check(const RichParameterList& values, MeshDocument& document, vcg::Call
         throw Refusal("the layer was closed while it was checked: run the filter on another");
     }
     select_only(layer, given, defects);
+    const Results results = {
+        {"defects", static_cast<int>(defects.size())},
+        {"warnings", static_cast<int>(found->warning_count())},
+        {"selected_vertices", layer.cm.svn},
+        {"selected_faces", layer.cm.sfn},
+    };
+    tell_results(results, say);
     for (const QString& line : qt(found->text()).trimmed().split('\n')) {
         say(line);
     }
@@ -27,10 +34,5 @@ Results check(const RichParameterList& values, MeshDocument& document, vcg::Call
                 .arg(layer.cm.svn)
                 .arg(layer.cm.sfn));
     }
-    return {
-        {"defects", static_cast<int>(defects.size())},
-        {"warnings", static_cast<int>(found->warning_count())},
-        {"selected_vertices", layer.cm.svn},
-        {"selected_faces", layer.cm.sfn},
-    };
+    return results;
 }

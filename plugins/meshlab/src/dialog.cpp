@@ -70,7 +70,7 @@ QString value_of(const RichParameterList& values, const wovenfit::Parameter& row
         return chosen >= 0 && chosen < choices.size() ? choices[chosen] : QString::number(chosen);
     }
     default:
-        return shortest(values.getFloat(name));
+        return number(values, name);
     }
 }
 
@@ -89,8 +89,9 @@ RichParameterList flatten_dialog() {
     RichParameterList dialog;
     dialog.addParam(FileToOpen(
         names::design_file, "", {"*.json"}, "Design file",
-        "A WovenFit design (.json): fabric, wanted pressures, orientation, seams, region. Without one the "
-        "seam and the orientation are found, and the fabric is what the fields below say."));
+        "A WovenFit design (.json): fabric, wanted pressures, orientation, seams, region; choose it by the ... "
+        "button. Without one the seam and the orientation are found, and the fabric is what the fields below "
+        "say."));
     dialog.addParam(FileToOpen(
         names::points_file, "", {"*.pp"}, "Picked points with pressures",
         "Points saved by MeshLab's PickPoints tool (.pp), each named after the pressure wanted there: "
@@ -168,8 +169,9 @@ QString field_name(wovenfit::Field field) {
     }
 }
 
-QString shortest(Scalarm value) {
+QString number(const RichParameterList& values, const QString& name) {
     std::array<char, 64> text{};
+    const auto value = static_cast<float>(values.getFloat(name));
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
     return QString::fromLatin1(text.data(), static_cast<int>(end - text.data()));
 }

@@ -37,5 +37,6 @@ QString pressure_unit(const RichParameterList& values);
 wovenfit::Field chosen_field(const RichParameterList& values);
 QString field_name(wovenfit::Field field);
 
-// The shortest text that reads back as this number: 0.01 for a float of it, not 0.00999999978.
-QString shortest(Scalarm value);
+// A number of the dialog as the shortest text that reads back as it. Every MeshLab keeps these numbers in
+// 32 bits: 0.01, not 0.00999999978.
+QString number(const RichParameterList& values, const QString& name);

@@ -36,8 +36,8 @@ void add_quality(wovenfit::Input& input, const RichParameterList& values, const 
                               "quality\"")
                           .arg(layer.label()));
     }
-    input.paint({given.quality.data(), given.quality.size()}, values.getFloat(names::quality_scale),
-                rs(pressure_unit(values)));
+    input.paint({given.quality.data(), given.quality.size()},
+                number(values, names::quality_scale).toDouble(), rs(pressure_unit(values)));
 }
 
 rust::Box<wovenfit::Input> wishes(const RichParameterList& values, const MeshModel& layer,
@@ -48,8 +48,8 @@ rust::Box<wovenfit::Input> wishes(const RichParameterList& values, const MeshMod
     if (!design.trimmed().isEmpty()) {
         const QByteArray text = read_file(design);
         try {
-            // Not UTF-8 is refused here, too.
-            input->read_design(rust::Str(text.constData(), static_cast<size_t>(text.size())));
+            const auto* bytes = reinterpret_cast<const uint8_t*>(text.constData());
+            input->read_design({bytes, static_cast<size_t>(text.size())});
         } catch (const std::exception& refused) {
             throw Refusal(QString("%1: %2").arg(design, refused.what()));
         }
@@ -103,11 +103,7 @@ private:
     size_t face_count;
 };
 
-Eigen::VectorXd vector(const rust::Vec<double>& values) {
-    return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-Results results(const wovenfit::Figures& figures, size_t warnings, size_t uncovered) {
+Results results_of(const wovenfit::Figures& figures, size_t warnings, size_t uncovered) {
     Results results = {
         {"width_mm", figures.width_mm},
         {"height_mm", figures.height_mm},
@@ -126,12 +122,17 @@ Results results(const wovenfit::Figures& figures, size_t warnings, size_t uncove
     };
 #ifndef WOVENFIT_MESHLAB_2020
     // 2020.09 gives a script nothing back; its log has the table.
-    results["asked_kpa"] = QVariant::fromValue(vector(figures.asked_kpa));
-    results["computed_kpa"] = QVariant::fromValue(vector(figures.got_kpa));
+    const auto vector = [](const rust::Vec<double>& values) {
+        const auto size = static_cast<Eigen::Index>(values.size());
+        return QVariant::fromValue(Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(values.data(), size)));
+    };
+    results["asked_kpa"] = vector(figures.asked_kpa);
+    results["computed_kpa"] = vector(figures.got_kpa);
 #endif
     return results;
 }
 
+// What matters most is said last: MeshLab's log shows its end.
 void tell(const wovenfit::Pattern& pattern, const Say& say) {
     for (const QString& line : qt(pattern.table()).trimmed().split('\n')) {
         say(line);
@@ -153,6 +154,7 @@ Results flatten(const RichParameterList& values, MeshDocument& document, vcg::Ca
     const Given given = read_layer(layer);
     const Unchanged unchanged(document, layer);
     auto input = wishes(values, layer, given, say);
+    const double mm_per_unit = input->mm_per_unit();
     say(QString("The layer \"%1\" is taken to be in %2.").arg(layer.label(), qt(input->unit())));
 
     const auto pattern = run(std::move(input), progress);
@@ -168,8 +170,18 @@ Results flatten(const RichParameterList& values, MeshDocument& document, vcg::Ca
 
     // Nothing below refuses.
     const size_t uncovered = set_texture(layer, given, corners);
-    add_pattern(document, *pattern, shown);
-    tell(*pattern, say);
+    add_pattern(document, given, mm_per_unit, *pattern, shown);
+    const Results results = results_of(figures, warnings, uncovered);
+    tell_results(results, say);
+    if (!folder.isEmpty()) {
+        say(QString("The report and the pattern are in %1; read report.html first.").arg(folder));
+    }
+    if (uncovered > 0) {
+        say(QString("%1 of %2 faces of the layer are not covered by the brace and have no texture "
+                    "coordinates.")
+                .arg(uncovered)
+                .arg(given.face.size()));
+    }
     const auto [least, most] = std::minmax_element(shown.begin(), shown.end());
     say(QString("The layer \"Pattern\" is %1 x %2 mm; its colours are the %3, from %4 (blue) to %5 (red).")
             .arg(figures.width_mm, 0, 'f', 1)
@@ -177,14 +189,11 @@ Results flatten(const RichParameterList& values, MeshDocument& document, vcg::Ca
             .arg(field_name(field))
             .arg(*least, 0, 'g', 3)
             .arg(*most, 0, 'g', 3));
-    if (uncovered > 0) {
-        say(QString("%1 of %2 faces of the layer are not covered by the brace and have no texture "
-                    "coordinates.")
-                .arg(uncovered)
-                .arg(given.face.size()));
+    tell(*pattern, say);
+    if (figures.asked_kpa.empty()) {
+        say("warning: no pressure is asked for, so the fabric lies unstretched: choose a design file or picked "
+            "points by the \"...\" button (MeshLab 2020.09 does not see a name that is typed), or take the "
+            "pressures from the vertex quality");
     }
-    if (!folder.isEmpty()) {
-        say(QString("The report and the pattern are in %1; read report.html first.").arg(folder));
-    }
-    return results(figures, warnings, uncovered);
+    return results;
 }

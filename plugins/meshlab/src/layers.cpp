@@ -8,6 +8,10 @@
 #include <vcg/complex/algorithms/update/selection.h>
 #include <vcg/math/matrix44.h>
 
+namespace {
+const char* const PATTERN = "Pattern";
+} // namespace
+
 MeshModel& current_layer(MeshDocument& document) {
     MeshModel* layer = document.mm();
     if (layer == nullptr) {
@@ -22,6 +26,11 @@ MeshModel& current_layer(MeshDocument& document) {
         throw Refusal(QString("the layer \"%1\" has points and no faces: make a surface from them first, "
                               "for example by Filters > Remeshing, Simplification and Reconstruction > "
                               "Surface Reconstruction: Screened Poisson")
+                          .arg(layer->label()));
+    }
+    if (layer->label().startsWith(PATTERN) && layer->cm.bbox.DimZ() == 0) {
+        throw Refusal(QString("the current layer \"%1\" is a pattern: make the layer of the limb the current "
+                              "one (click on it in the list of layers)")
                           .arg(layer->label()));
     }
     return *layer;
@@ -104,11 +113,37 @@ size_t set_texture(MeshModel& layer, const Given& given, const rust::Vec<double>
     return uncovered;
 }
 
-MeshModel& add_pattern(MeshDocument& document, const wovenfit::Pattern& pattern,
-                       const rust::Vec<double>& field) {
+namespace {
+
+// From the pattern's mm to the scene: to the right of the limb, half way along its other axes.
+Matrix44m beside(const Given& given, double mm_per_unit, const rust::Vec<double>& pattern) {
+    vcg::Box3d limb;
+    for (size_t v = 0; v < given.vertex.size(); v++) {
+        limb.Add({given.points[3 * v], given.points[3 * v + 1], given.points[3 * v + 2]});
+    }
+    double height = 0;
+    for (size_t v = 1; v < pattern.size(); v += 2) {
+        height = std::max(height, pattern[v]);
+    }
+    const vcg::Point3d middle = limb.Center();
+    const vcg::Point3d corner(limb.max[0] + 0.25 * limb.DimX(), middle[1] - 0.5 * height / mm_per_unit,
+                              middle[2]);
+    vcg::Matrix44d scale;
+    vcg::Matrix44d shift;
+    scale.SetScale(1 / mm_per_unit, 1 / mm_per_unit, 1 / mm_per_unit);
+    shift.SetTranslate(corner);
+    Matrix44m transform;
+    transform.Import(shift * scale);
+    return transform;
+}
+
+} // namespace
+
+MeshModel& add_pattern(MeshDocument& document, const Given& given, double mm_per_unit,
+                       const wovenfit::Pattern& pattern, const rust::Vec<double>& field) {
     const rust::Vec<double> places = pattern.coordinates();
     const rust::Vec<uint32_t> triangles = pattern.triangles();
-    MeshModel& layer = *document.addNewMesh("", "Pattern", true);
+    MeshModel& layer = *document.addNewMesh("", PATTERN, true);
     layer.updateDataMask(MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCOLOR);
     CMeshO& mesh = layer.cm;
     auto vertex = vcg::tri::Allocator<CMeshO>::AddVertices(mesh, places.size() / 2);
@@ -127,6 +162,7 @@ MeshModel& add_pattern(MeshDocument& document, const wovenfit::Pattern& pattern,
     // MeshLab's ramp goes from red to blue; a brace's red is where most is.
     vcg::tri::UpdateColor<CMeshO>::PerVertexQualityRamp(
         mesh, static_cast<CVertexO::QualityType>(*most), static_cast<CVertexO::QualityType>(*least));
+    mesh.Tr = beside(given, mm_per_unit, places);
     update_box_and_normals(layer);
     return layer;
 }

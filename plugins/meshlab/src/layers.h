@@ -34,9 +34,10 @@ Given read_layer(MeshModel& layer);
 // corner none. How many faces have none.
 size_t set_texture(MeshModel& layer, const Given& given, const rust::Vec<double>& corners);
 
-// Adds the pattern as a layer: flat, in mm, `field` as quality and as colours, red for much.
-MeshModel& add_pattern(MeshDocument& document, const wovenfit::Pattern& pattern,
-                       const rust::Vec<double>& field);
+// Adds the pattern as a layer: flat, in mm, `field` as quality and as colours, red for much. The layer's
+// transform shows it beside the limb, in the limb's unit of so many mm; its coordinates stay in mm.
+MeshModel& add_pattern(MeshDocument& document, const Given& given, double mm_per_unit,
+                       const wovenfit::Pattern& pattern, const rust::Vec<double>& field);
 
 // Selects vertices and faces, and nothing else.
 void select_only(MeshModel& layer, const Given& given, const rust::Vec<wovenfit::Defect>& defects);

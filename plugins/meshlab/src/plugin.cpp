@@ -4,6 +4,7 @@
 
 #include "dialog.h"
 #include "filters.h"
+#include "scroll.h"
 
 namespace {
 
@@ -45,12 +46,10 @@ QString WovenFitPlugin::filterInfo(int filter) const {
                "it from being flattened, with its place and what to do, in the log; selects the faces and "
                "vertices that the defects are about.";
     }
-    return "Makes the flat pattern of an elastic brace from the scan of a limb: cut from a woven fabric of "
-           "the stiffness given and sewn, it presses, by the model, as asked at the points that a design "
-           "file, picked points or the vertex quality name.<br>The pattern becomes a new layer, flat and at "
-           "true size in mm; the scan gets it as texture coordinates; the log has the table of pressures and "
-           "the warnings. Pressures are computed, not measured.<br>See: <i>Wang &amp; Tang</i>, <b>\"Woven "
-           "Model Based Geometric Design of Elastic Medical Braces\"</b>.";
+    return "From the scan of a limb to the flat pattern of an elastic brace that, by the model of its fabric, "
+           "presses as asked: a new layer, in mm. The log has the table of pressures and the warnings. "
+           "Pressures are computed, not measured.<br>See: <i>Wang &amp; Tang</i>, <b>\"Woven Model Based "
+           "Geometric Design of Elastic Medical Braces\"</b>.";
 }
 
 int WovenFitPlugin::postCondition(HostAction* action) const {
@@ -99,15 +98,14 @@ void WovenFitPlugin::initParameterSet(QAction* action, MeshDocument&, RichParame
     // In another MeshLab the filter has no dialog: it is run at once and says why not.
     if (mismatch().isEmpty()) {
         parameters = dialog(action);
+        scroll_next_dialog();
     }
 }
 
 bool WovenFitPlugin::applyFilter(QAction* action, MeshDocument& document, const RichParameterList& values,
                                  vcg::CallBackPos* progress) {
     try {
-        for (const auto& [name, value] : run(action, values, document, progress)) {
-            say(QString("%1 = %2").arg(QString::fromStdString(name), value.toString()));
-        }
+        run(action, values, document, progress);
         return true;
     } catch (const std::exception& refused) {
         errorMessage = for_dialog(QString::fromUtf8(refused.what()));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <QString>
+#include <QStringList>
 #include <QVariant>
 #include <functional>
 #include <map>
@@ -21,6 +22,20 @@ using Say = std::function<void(const QString&)>;
 
 // What a script is given: names and values.
 using Results = std::map<std::string, QVariant>;
+
+// Says them in a line where the host gives a script nothing back: 2020.09.
+inline void tell_results(const Results& results, const Say& say) {
+#ifdef WOVENFIT_MESHLAB_2020
+    QStringList values;
+    for (const auto& [name, value] : results) {
+        values.append(QString("%1 = %2").arg(QString::fromStdString(name), value.toString()));
+    }
+    say("results: " + values.join("; "));
+#else
+    Q_UNUSED(results)
+    Q_UNUSED(say)
+#endif
+}
 
 inline QString qt(const rust::String& text) {
     return QString::fromUtf8(text.data(), static_cast<int>(text.size()));

@@ -38,10 +38,9 @@ fn figure(mm: f64) -> String {
 fn remedy(likely: Option<LengthUnit>) -> String {
     match likely {
         Some(unit) => {
-            format!("the file is probably in {0}; say `--units {0}`", unit.symbol())
+            format!("the file is probably in {0}; set `units` to `{0}`", unit.symbol())
         }
-        None => "no unit makes it one; if the surface is right, say its unit with `--units`, for \
-                 example `--units mm`"
+        None => "no unit makes it one; if the surface is right, set `units` to its unit, for example `mm`"
             .to_owned(),
     }
 }
@@ -99,8 +98,8 @@ mod tests {
         let message = read(1e-3, Millimetre).unwrap_err().to_string();
         assert_eq!(
             message,
-            "girths of 0.25 mm are not a limb's (60 to 1500 mm): the file is probably in m; say \
-             `--units m`"
+            "girths of 0.25 mm are not a limb's (60 to 1500 mm): the file is probably in m; set \
+             `units` to `m`"
         );
         // Millimetres read as metres.
         assert_eq!(read(1000.0, Metre).unwrap_err().likely, Some(Millimetre));

@@ -32,9 +32,13 @@ impl Input {
         guarded(|| self.parameters.set(name, value).map_err(Failure::new))
     }
 
-    /// Takes the design from the text of a design file.
-    pub(crate) fn read_design(&mut self, json: &str) -> Result<(), Failure> {
+    /// Takes the design from the bytes of a design file.
+    pub(crate) fn read_design(&mut self, bytes: &[u8]) -> Result<(), Failure> {
         guarded(|| {
+            let json = str::from_utf8(bytes).map_err(|error| {
+                let place = error.valid_up_to();
+                Failure(format!("byte {place} is not UTF-8 text: save the design as UTF-8"))
+            })?;
             self.design = parse(json, self.parameters.units).map_err(Failure::new)?;
             Ok(())
         })
@@ -81,8 +85,13 @@ impl Input {
         self.length_unit().symbol().to_owned()
     }
 
+    /// Millimetres in one of it.
+    pub(crate) fn mm_per_unit(&self) -> f64 {
+        self.length_unit().millimetres()
+    }
+
     fn in_mm(&self, point: DVec3) -> DVec3 {
-        on_grid(point, self.length_unit().millimetres())
+        on_grid(point, self.mm_per_unit())
     }
 
     /// Adds a wanted pressure at a point in the mesh's unit; `unit` is that of the pressure.
@@ -175,7 +184,7 @@ mod tests {
     fn coordinates_are_in_the_parameters_unit_and_pressures_in_theirs() {
         let mut input = new_input();
         input.set_parameter("units", "cm").unwrap();
-        input.read_design(r#"{"pressures": [{"at": [1, 0, 0], "kpa": 1}]}"#).unwrap();
+        input.read_design(br#"{"pressures": [{"at": [1, 0, 0], "kpa": 1}]}"#).unwrap();
         input.add_pressure([0.0, 2.0, 0.0], 10.0, "mmHg").unwrap();
         let [file, picked] = input.design.pressures[..] else { panic!() };
         assert_eq!((file.at, file.kpa), (DVec3::new(10.0, 0.0, 0.0), 1.0));

@@ -153,13 +153,14 @@ mod ffi {
         type Input;
         fn new_input() -> Box<Input>;
         fn set_parameter(self: &mut Input, name: &str, value: &str) -> Result<()>;
-        fn read_design(self: &mut Input, json: &str) -> Result<()>;
+        fn read_design(self: &mut Input, bytes: &[u8]) -> Result<()>;
         fn set_wish(self: &mut Input, place: &str, value: &str) -> Result<()>;
         fn set_mesh(self: &mut Input, points: &[f64], triangles: &[u32]) -> Result<()>;
         fn add_pressure(self: &mut Input, at: [f64; 3], value: f64, unit: &str) -> Result<()>;
         fn paint(self: &mut Input, values: &[f64], scale: f64, unit: &str) -> Result<()>;
         fn select(self: &mut Input, triangles: &[u32]) -> Result<()>;
         fn unit(self: &Input) -> String;
+        fn mm_per_unit(self: &Input) -> f64;
 
         type Job;
         fn start(input: Box<Input>) -> Result<Box<Job>>;
