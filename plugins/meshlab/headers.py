@@ -1,4 +1,4 @@
-"""MeshLab's sources, whose headers a plugin needs and no package brings: from Debian's source packages.
+"""MeshLab's sources, whose headers a plugin needs and no package brings, from Debian's archive.
 
 They go to ``target/meshlab`` and are never part of this repository: MeshLab is under the GPL. apt
 is asked with lists of its own, so that the machine's sources stay as they are.
@@ -33,7 +33,7 @@ def sources(version: str) -> Path:
     fresh = FOLDER / f"unpacking-{version}"
     shutil.rmtree(fresh, ignore_errors=True)
     with tarfile.open(archive) as tar:
-        tar.extractall(fresh)  # noqa: S202 - apt has checked its signature
+        tar.extractall(fresh)
     inside = next((p.parents[1] for p in fresh.rglob("src/common") if p.is_dir()), None)
     if inside is None:
         raise NoHeadersError(f"{archive.name} does not hold MeshLab's sources")
@@ -66,12 +66,20 @@ def _apt() -> list[str]:
     """apt-get with lists of its own, of this Debian's and the newest sources."""
     if shutil.which("apt-get") is None:
         raise NoHeadersError(
-            "MeshLab's sources come by apt-get, which is not here: unpack them yourself and name their "
-            "folder with --sources"
+            "MeshLab's sources come by apt-get, which is not here: unpack them yourself and "
+            "name their folder with --sources"
         )
-    asked = ["apt-get", "indextargets", "--format", "$(REPO_URI) $(CODENAME) $(ORIGIN)", "Created-By: Packages"]
+    asked = [
+        "apt-get",
+        "indextargets",
+        "--format",
+        "$(REPO_URI) $(CODENAME) $(ORIGIN)",
+        "Created-By: Packages",
+    ]
     lines = subprocess.run(asked, capture_output=True, text=True, check=False).stdout.splitlines()
-    debian = [line.split()[:2] for line in lines if line.endswith(" Debian") and "security" not in line]
+    debian = [
+        line.split()[:2] for line in lines if line.endswith(" Debian") and "security" not in line
+    ]
     if not debian:
         raise NoHeadersError("apt knows no archive of Debian: run apt-get update first")
     address, suite = debian[0]
@@ -84,7 +92,12 @@ def _apt() -> list[str]:
     (own / "sources.list").write_text(f"{entry} {suite} main\n{entry} sid main\n")
     apt = [
         "apt-get",
-        *("-o", f"Dir::Etc::sourcelist={own / 'sources.list'}", "-o", "Dir::Etc::sourceparts=/dev/null"),
+        *(
+            "-o",
+            f"Dir::Etc::sourcelist={own / 'sources.list'}",
+            "-o",
+            "Dir::Etc::sourceparts=/dev/null",
+        ),
         *("-o", f"Dir::State::Lists={own / 'lists'}", "-o", f"Dir::Cache={own / 'cache'}"),
         *("-o", "APT::Sandbox::User=root", "-qq"),
     ]
@@ -100,14 +113,23 @@ def _full_version(apt: list[str], version: str) -> str:
     fitting = [full for full in versions if full.startswith(version)]
     if not fitting:
         there = ", ".join(versions) or "none"
-        raise NoHeadersError(f"Debian's archive has no sources of MeshLab {version} (there are: {there})")
+        raise NoHeadersError(
+            f"Debian's archive has no sources of MeshLab {version} (there are: {there})"
+        )
     return fitting[0]
 
 
 def _run(command: list[str], folder: Path) -> None:
     try:
         subprocess.run(
-            command, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, timeout=300, check=False
+            command,
+            cwd=folder,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            timeout=300,
+            check=False,
         )
     except subprocess.TimeoutExpired as error:
-        raise NoHeadersError(f"{' '.join(command[:1])} did not answer within five minutes") from error
+        raise NoHeadersError(
+            f"{' '.join(command[:1])} did not answer within five minutes"
+        ) from error

@@ -4,8 +4,8 @@
     python3 plugins/meshlab/install.py --pymeshlab PYTHON   for the pymeshlab of a Python
 
 The plugin is built for exactly that MeshLab: its version and the precision of its coordinates. It
-goes to MeshLab's own plugins (which mostly needs root); of pymeshlab's it is said how to load it. It
-needs cargo, cmake, ninja, g++, Qt 5, GLEW and Eigen; on Debian:
+goes to MeshLab's own plugins (which mostly needs root); how to load pymeshlab's is said. It needs
+cargo, cmake, ninja, g++, Qt 5, GLEW and Eigen; on Debian:
 
     apt install cmake ninja-build g++ qtbase5-dev libqt5opengl5-dev libglew-dev libeigen3-dev
 """
@@ -67,7 +67,9 @@ def installed() -> Host:
 
 def of_python(python: str) -> Host:
     """The MeshLab inside a Python's pymeshlab."""
-    asked = "import importlib.util as u; print(u.find_spec('pymeshlab').submodule_search_locations[0])"
+    asked = (
+        "import importlib.util as u; print(u.find_spec('pymeshlab').submodule_search_locations[0])"
+    )
     said = subprocess.run([python, "-c", asked], capture_output=True, text=True, check=False)
     if said.returncode != 0:
         raise SystemExit(f"{python} has no pymeshlab: install it (pip install pymeshlab)")
@@ -95,10 +97,14 @@ def build(host: Host, sources: Path, *, tests: bool) -> Path:
         f"-DWOVENFIT_TESTS={'ON' if tests else 'OFF'}",
     ]
     for command in (configure, ["cmake", "--build", str(folder)]):
-        done = subprocess.run(command, env=environment, stdout=subprocess.PIPE, text=True, check=False)
+        done = subprocess.run(
+            command, env=environment, stdout=subprocess.PIPE, text=True, check=False
+        )
         if done.returncode != 0:
             sys.stderr.write(done.stdout)
-            raise SystemExit(f"{command[0]} ended with {done.returncode}. {(__doc__ or '').split('It')[-1]}")
+            raise SystemExit(
+                f"{command[0]} ended with {done.returncode}. {(__doc__ or '').split('It')[-1]}"
+            )
     return folder / NAME
 
 
@@ -122,9 +128,15 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--pymeshlab", metavar="PYTHON", help="build for the pymeshlab of this Python")
-    parser.add_argument("--sources", metavar="DIR", type=Path, help="MeshLab's unpacked sources, if you have them")
-    parser.add_argument("--plugins", metavar="DIR", type=Path, help="another folder to install into")
+    parser.add_argument(
+        "--pymeshlab", metavar="PYTHON", help="build for the pymeshlab of this Python"
+    )
+    parser.add_argument(
+        "--sources", metavar="DIR", type=Path, help="MeshLab's unpacked sources, if you have them"
+    )
+    parser.add_argument(
+        "--plugins", metavar="DIR", type=Path, help="another folder to install into"
+    )
     parser.add_argument("--build-only", action="store_true", help="install nothing")
     parser.add_argument("--tests", action="store_true", help="also build what only the tests load")
     wanted = parser.parse_args()
@@ -141,8 +153,10 @@ def main() -> None:
     elif folder is None:
         print(f"Built. In your script:\n  pymeshlab.load_plugin({str(plugin)!r})")
     else:
-        print(f"Installed: {install(plugin, folder)}. Start MeshLab; the filters are in Filters > Texture and "
-              "Filters > Selection.")
+        print(
+            f"Installed: {install(plugin, folder)}. Start MeshLab; the filters are in "
+            "Filters > Texture and Filters > Selection."
+        )
 
 
 if __name__ == "__main__":

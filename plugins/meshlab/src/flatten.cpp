@@ -134,11 +134,16 @@ Results results_of(const wovenfit::Figures& figures, size_t warnings, size_t unc
 
 // What matters most is said last: MeshLab's log shows its end.
 void tell(const wovenfit::Pattern& pattern, const Say& say) {
+    const rust::Vec<rust::String> warnings = pattern.warnings();
+    for (const rust::String& warning : warnings) {
+        say("warning: " + qt(warning));
+    }
     for (const QString& line : qt(pattern.table()).trimmed().split('\n')) {
         say(line);
     }
-    for (const rust::String& warning : pattern.warnings()) {
-        say("warning: " + qt(warning));
+    if (!warnings.empty()) {
+        say(QString("%1 above: read before you cut.")
+                .arg(warnings.size() == 1 ? "1 warning" : QString("%1 warnings").arg(warnings.size())));
     }
 }
 

@@ -39,6 +39,11 @@ meshlab_pytests() {
 }
 
 begin "MeshLab 2020.09"
+for ruff in "check --quiet" "format --quiet --check"; do
+    # shellcheck disable=SC2086
+    check $meshlab_python/bin/ruff $ruff --config plugins/python/pyproject.toml --no-cache \
+        plugins/meshlab $meshlab_tests
+done
 check cargo build --release --quiet --package wovenfit
 check cargo build --release --quiet --package wovenfit-ffi
 check timeout 600 python3 plugins/meshlab/install.py --build-only --tests </dev/null

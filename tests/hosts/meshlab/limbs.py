@@ -41,7 +41,11 @@ def sample(folder: Path, triangles: int = 4000) -> Limb:
 
 
 def write_ply(
-    file: Path, points: np.ndarray, faces: np.ndarray, quality: np.ndarray | None = None, scalar: str = "float"
+    file: Path,
+    points: np.ndarray,
+    faces: np.ndarray,
+    quality: np.ndarray | None = None,
+    scalar: str = "float",
 ) -> Path:
     """A binary PLY as MeshLab reads it."""
     kind = {"float": "<f4", "double": "<f8"}[scalar]
@@ -49,7 +53,11 @@ def write_ply(
     columns = [*points.T] + ([quality] if quality is not None else [])
     header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(points)}"]
     header += [f"property {scalar} {name}" for name in names]
-    header += [f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header\n"]
+    header += [
+        f"element face {len(faces)}",
+        "property list uchar int vertex_indices",
+        "end_header\n",
+    ]
     rows = np.empty(len(faces), dtype=[("n", "u1"), ("v", "<i4", 3)])
     rows["n"], rows["v"] = 3, faces
     body = np.stack(columns, axis=1).astype(kind).tobytes() + rows.tobytes()
@@ -65,21 +73,37 @@ def write_obj(file: Path, points: np.ndarray, faces: np.ndarray) -> Path:
     return file
 
 
-def write_points(file: Path, points: list[tuple[list[float], str]], inactive: tuple[int, ...] = ()) -> Path:
+def write_points(
+    file: Path, points: list[tuple[list[float], str]], inactive: tuple[int, ...] = ()
+) -> Path:
     """A file as the PickPoints tool saves it."""
     rows = [
         f'<point x="{x!r}" y="{y!r}" z="{z!r}" active="{0 if i in inactive else 1}" name="{name}"/>'
         for i, ((x, y, z), name) in enumerate(points)
     ]
     document = '<DocumentData><templateName name="new Template"/></DocumentData>'
-    file.write_text(f"<!DOCTYPE PickedPoints>\n<PickedPoints>\n{document}\n" + "\n".join(rows) + "\n</PickedPoints>\n")
+    file.write_text(
+        f"<!DOCTYPE PickedPoints>\n<PickedPoints>\n{document}\n"
+        + "\n".join(rows)
+        + "\n</PickedPoints>\n"
+    )
     return file
 
 
 def command_line(folder: Path, mesh: Path, design: Path, *flags: str) -> Path:
     """The folder with what `wovenfit flatten` makes of these."""
     out = folder / "command-line"
-    command = [str(PROGRAM), "flatten", str(mesh), "--design", str(design), "--out", str(out), "--quiet", *flags]
+    command = [
+        str(PROGRAM),
+        "flatten",
+        str(mesh),
+        "--design",
+        str(design),
+        "--out",
+        str(out),
+        "--quiet",
+        *flags,
+    ]
     subprocess.run(command, check=True, stderr=subprocess.DEVNULL)
     return out
 
@@ -92,7 +116,9 @@ def differing(one: Path, other: Path) -> list[str]:
 def flat(folder: Path) -> np.ndarray:
     """The points of flat.obj."""
     lines = (folder / "flat.obj").read_text().splitlines()
-    return np.array([[float(x) for x in line.split()[1:4]] for line in lines if line.startswith("v ")])
+    return np.array(
+        [[float(x) for x in line.split()[1:4]] for line in lines if line.startswith("v ")]
+    )
 
 
 def edited(folder: Path, design: dict[str, Any], **changes: Any) -> Path:

@@ -1,4 +1,4 @@
-"""Debian's MeshLab 2020.09 with our plugin beside its own, in a folder; its scripts and what it writes.
+"""Debian's MeshLab 2020.09 with our plugin beside its own; its scripts and what it writes.
 
 MeshLab looks for plugins where its program lies, so the program is copied and the rest linked.
 """
@@ -44,12 +44,25 @@ class Ran:
 
 def environment(home: Path, **more: str) -> dict[str, str]:
     home.mkdir(mode=0o700, exist_ok=True)
-    return {**os.environ, "HOME": str(home), "XDG_RUNTIME_DIR": str(home), "LIBGL_ALWAYS_SOFTWARE": "1", **more}
+    return {
+        **os.environ,
+        "HOME": str(home),
+        "XDG_RUNTIME_DIR": str(home),
+        "LIBGL_ALWAYS_SOFTWARE": "1",
+        **more,
+    }
 
 
 def serve(programs: Path, *arguments: str, **more: str) -> Ran:
     """Runs meshlabserver."""
-    command = ["xvfb-run", "-a", "-s", "-screen 0 1280x900x24", str(programs / "meshlabserver"), *arguments]
+    command = [
+        "xvfb-run",
+        "-a",
+        "-s",
+        "-screen 0 1280x900x24",
+        str(programs / "meshlabserver"),
+        *arguments,
+    ]
     done = subprocess.run(
         command,
         env=environment(programs.parent / "home", **more),
@@ -65,7 +78,9 @@ def serve(programs: Path, *arguments: str, **more: str) -> Ran:
 
 def script(file: Path, *filters: str) -> str:
     """A MeshLab script of these filters."""
-    file.write_text("<!DOCTYPE FilterScript>\n<FilterScript>\n" + "\n".join(filters) + "\n</FilterScript>\n")
+    file.write_text(
+        "<!DOCTYPE FilterScript>\n<FilterScript>\n" + "\n".join(filters) + "\n</FilterScript>\n"
+    )
     return str(file)
 
 
@@ -76,7 +91,9 @@ def filter_of(name: str, *parameters: tuple[str, str, object]) -> str:
         shown = str(value).lower() if isinstance(value, bool) else str(value)
         more = ' exts_cardinality="1" exts_val0="*"' if kind == "RichOpenFile" else ""
         more = ' enum_cardinality="0"' if kind == "RichEnum" else more
-        rows.append(f"<Param name={quoteattr(key)} type={quoteattr(kind)} value={quoteattr(shown)}{more}/>")
+        rows.append(
+            f"<Param name={quoteattr(key)} type={quoteattr(kind)} value={quoteattr(shown)}{more}/>"
+        )
     return f"<filter name={quoteattr(name)}>{''.join(rows)}</filter>"
 
 
@@ -101,7 +118,9 @@ def flatten_filter(**values: object) -> str:
         *((f"fabric_{name}", "RichString", "") for name in FABRIC),
     ]
     rows = [(name, kind, values.pop(name, value)) for name, kind, value in own]
-    rows += [table_row(row, values.pop(row.name, row.default)) for row in wovenfit.parameter_table()]
+    rows += [
+        table_row(row, values.pop(row.name, row.default)) for row in wovenfit.parameter_table()
+    ]
     assert not values, values
     return filter_of(FLATTEN, *rows)
 
@@ -126,7 +145,16 @@ class Ply:
         return np.stack([self.vertices[axis] for axis in "xyz"], axis=1).astype(float)
 
 
-TYPES = {"char": "b", "uchar": "B", "short": "h", "ushort": "H", "int": "i", "uint": "I", "float": "f", "double": "d"}
+TYPES = {
+    "char": "b",
+    "uchar": "B",
+    "short": "h",
+    "ushort": "H",
+    "int": "i",
+    "uint": "I",
+    "float": "f",
+    "double": "d",
+}
 
 
 def read_ply(file: Path) -> Ply:

@@ -1,11 +1,11 @@
-"""MeshLab's own parametrizations of the same limb beside the pattern: how far each stretches the surface
-and how far the two sides of the seam differ in length.
+"""MeshLab's own parametrizations of the same limb beside the pattern: how far each stretches the
+surface and how far the two sides of the seam differ in length.
 
     python side_by_side.py     prints the table; ends with 1 if the pattern's seam does not match
 
-All are laid on the very surface that the pattern was cut from (worn.obj), so that the seam is one and
-the same. LSCM knows no scale: each of MeshLab's is scaled to the surface's area. The pattern is stretched
-on purpose, by the wanted pressures; so a pattern without pressures stands beside them, too.
+All are laid on the very surface that the pattern was cut from (worn.obj), so that the seam is one
+and the same. LSCM knows no scale: each of MeshLab's is scaled to the surface's area. The pattern is
+stretched on purpose, by the wanted pressures; so one without pressures stands beside them, too.
 """
 
 from __future__ import annotations
@@ -23,27 +23,35 @@ from limbs import sample
 SEAM_TOLERANCE_MM = 0.1
 
 
-def stretches(worn: np.ndarray, flat: np.ndarray, faces: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Both principal stretches from the plane to the limb, and the area on the limb, of every face."""
+def stretches(
+    worn: np.ndarray, flat: np.ndarray, faces: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Both principal stretches from plane to limb, and the area on the limb, of every face."""
     a, b, c = (worn[faces[:, k]] for k in range(3))
     u = (b - a) / np.linalg.norm(b - a, axis=1)[:, None]
     normal = np.cross(b - a, c - a)
     v = np.cross(normal / np.linalg.norm(normal, axis=1)[:, None], u)
-    onto = np.stack([np.stack([((p - a) * w).sum(1) for p in (b, c)], axis=-1) for w in (u, v)], axis=1)
+    onto = np.stack(
+        [np.stack([((p - a) * w).sum(1) for p in (b, c)], axis=-1) for w in (u, v)], axis=1
+    )
     p, q, r = (flat[faces[:, k]] for k in range(3))
     plane = np.stack([q - p, r - p], axis=-1)
     singular = np.linalg.svd(onto @ np.linalg.inv(plane), compute_uv=False)
     return singular[:, 0], singular[:, 1], 0.5 * np.linalg.norm(normal, axis=1)
 
 
-def figures(worn: np.ndarray, flat: np.ndarray, pattern: wovenfit.Pattern) -> tuple[float, float, float]:
-    """Root mean square of both strains, and the seam's mismatch: of the whole seam in mm, and the worst
-    edge's as a share of it."""
+def figures(
+    worn: np.ndarray, flat: np.ndarray, pattern: wovenfit.Pattern
+) -> tuple[float, float, float]:
+    """Root mean square of both strains, and the seam's mismatch: of the whole seam in mm, and the
+    worst edge's as a share of it."""
     large, small, area = stretches(worn, flat, pattern.triangles)
     strain = np.sqrt((area * ((large - 1) ** 2 + (small - 1) ** 2)).sum() / (2 * area.sum()))
     whole, edge = 0.0, 0.0
     for seam in pattern.seams:
-        left, right = (np.linalg.norm(np.diff(flat[side], axis=0), axis=1) for side in (seam.left, seam.right))
+        left, right = (
+            np.linalg.norm(np.diff(flat[side], axis=0), axis=1) for side in (seam.left, seam.right)
+        )
         whole = max(whole, abs(left.sum() - right.sum()))
         edge = max(edge, float((np.abs(left - right) / np.maximum(left, right)).max()))
     return float(strain), whole, edge

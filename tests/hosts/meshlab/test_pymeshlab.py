@@ -1,5 +1,5 @@
-"""The filters in today's MeshLab, by its Python module: double precision, so that everything is compared
-bit for bit with the C ABI and byte for byte with the command line."""
+"""The filters in today's MeshLab, by its Python module: double precision, so that everything is
+compared bit for bit with the C ABI and byte for byte with the command line."""
 
 from __future__ import annotations
 
@@ -79,15 +79,22 @@ def test_the_dialog_has_every_parameter_of_the_table_with_its_default(limb: Limb
         assert value == pytest.approx(row.default), row.name
 
 
-def test_a_design_file_gives_the_command_lines_files_and_the_c_abis_pattern(limb: Limb, tmp_path: Path) -> None:
+def test_a_design_file_gives_the_command_lines_files_and_the_c_abis_pattern(
+    limb: Limb, tmp_path: Path
+) -> None:
     document = layers(limb.points, limb.faces)
     figures = document.apply_filter(
-        FLATTEN, design_file=str(limb.design_file), output_folder=str(tmp_path / "meshlab"), field="pressure (kPa)"
+        FLATTEN,
+        design_file=str(limb.design_file),
+        output_folder=str(tmp_path / "meshlab"),
+        field="pressure (kPa)",
     )
     mesh = write_obj(tmp_path / "arm.obj", limb.points, limb.faces)
     expected = command_line(tmp_path, mesh, limb.design_file)
     assert differing(tmp_path / "meshlab", expected) == []
-    assert sorted(p.name for p in (tmp_path / "meshlab").iterdir()) == sorted(p.name for p in expected.iterdir())
+    assert sorted(p.name for p in (tmp_path / "meshlab").iterdir()) == sorted(
+        p.name for p in expected.iterdir()
+    )
 
     pattern = of_abi(limb, limb.design)
     same_bits(document, pattern)
@@ -95,16 +102,21 @@ def test_a_design_file_gives_the_command_lines_files_and_the_c_abis_pattern(limb
     assert np.array_equal(layer.vertex_scalar_array(), pattern.pressure_kpa)
     colours = layer.vertex_color_matrix()
     most, least = np.argmax(pattern.pressure_kpa), np.argmin(pattern.pressure_kpa)
-    assert colours[most].tolist() == [1, 0, 0, 1] and colours[least].tolist() == [0, 0, 1, 1]
+    assert colours[most].tolist() == [1, 0, 0, 1]
+    assert colours[least].tolist() == [0, 0, 1, 1]
 
     assert figures["width_mm"] == pattern.figures.width_mm
-    assert figures["converged"] is True and figures["flipped"] == 0 and figures["pressures"] == 4
+    assert figures["converged"] is True
+    assert figures["flipped"] == 0
+    assert figures["pressures"] == 4
     assert np.array_equal(figures["asked_kpa"], [row.asked_kpa for row in pattern.pressures])
     assert np.array_equal(figures["computed_kpa"], [row.got_kpa for row in pattern.pressures])
     assert figures["warnings"] == len(pattern.warnings)
 
 
-@pytest.mark.parametrize(("field", "name"), [("warp strain", "warp_strain"), ("weft strain", "weft_strain")])
+@pytest.mark.parametrize(
+    ("field", "name"), [("warp strain", "warp_strain"), ("weft strain", "weft_strain")]
+)
 def test_the_field_asked_for_is_the_layers_quality(limb: Limb, field: str, name: str) -> None:
     document = layers(limb.points, limb.faces)
     document.apply_filter(FLATTEN, design_file=str(limb.design_file), field=field)
@@ -162,7 +174,11 @@ def painted(limb: Limb) -> np.ndarray:
 )
 def test_pressures_come_from_the_vertex_quality(limb: Limb, values: dict, factor: float) -> None:
     kpa = painted(limb)
-    document = layers(limb.points, limb.faces, v_scalar_array=kpa * (factor if values else 1) / (2 if values else 1))
+    document = layers(
+        limb.points,
+        limb.faces,
+        v_scalar_array=kpa * (factor if values else 1) / (2 if values else 1),
+    )
     figures = document.apply_filter(FLATTEN, pressures_from_quality=True, **values)
     design = wovenfit.Design()
     design.paint_pressures(wovenfit.Mesh(limb.points, limb.faces), kpa)
@@ -170,7 +186,10 @@ def test_pressures_come_from_the_vertex_quality(limb: Limb, values: dict, factor
     assert figures["pressures"] == len(expected.pressures) > 2
     assert figures["asked_kpa"] == pytest.approx([row.asked_kpa for row in expected.pressures])
     if values:
-        assert np.abs(document.current_mesh().vertex_matrix()[:, :2] - expected.coordinates).max() < 1e-6
+        assert (
+            np.abs(document.current_mesh().vertex_matrix()[:, :2] - expected.coordinates).max()
+            < 1e-6
+        )
     else:
         same_bits(document, expected)
 
@@ -189,7 +208,10 @@ def test_pressures_come_from_picked_points(limb: Limb, tmp_path: Path) -> None:
 def test_fabric_seams_and_orientation_are_the_files_and_what_is_filled_in_goes_before(
     limb: Limb, tmp_path: Path
 ) -> None:
-    seam = [limb.points[np.argmax(limb.points[:, 2])].tolist(), limb.points[np.argmin(limb.points[:, 2])].tolist()]
+    seam = [
+        limb.points[np.argmax(limb.points[:, 2])].tolist(),
+        limb.points[np.argmin(limb.points[:, 2])].tolist(),
+    ]
     file = edited(tmp_path, limb.design, seams=[seam])
     document = layers(limb.points, limb.faces)
     document.apply_filter(FLATTEN, design_file=str(file), fabric_warp="0.8", spacing=8)
@@ -211,7 +233,9 @@ def test_the_brace_covers_the_selected_faces_alone(limb: Limb) -> None:
     document.set_current_mesh(0)
     corners = document.current_mesh().wedge_tex_coord_matrix().reshape(-1, 3, 2)
     outside = np.isnan(expected.given_corner_coordinates).any(axis=(1, 2))
-    assert outside.any() and not corners[outside].any() and corners[~outside].any()
+    assert outside.any()
+    assert not corners[outside].any()
+    assert corners[~outside].any()
 
 
 def test_a_second_pattern_is_another_layer(limb: Limb) -> None:
@@ -223,13 +247,40 @@ def test_a_second_pattern_is_another_layer(limb: Limb) -> None:
     assert "is a pattern: make the layer of the limb" in refused(document)
 
 
-def test_check_says_what_the_limb_is(limb: Limb, capfd: pytest.CaptureFixture[str]) -> None:
-    document = layers(limb.points, limb.faces)
-    document.set_verbosity(True)
-    figures = document.apply_filter(CHECK)
-    assert figures["defects"] == 0 and figures["selected_faces"] == 0
-    said = "".join(capfd.readouterr())
-    assert "tube: cut along a seam" in said and "This surface can be flattened." in said
+LOGGED = """
+import sys
+import numpy as np, pymeshlab
+pymeshlab.load_plugin(sys.argv[1])
+limb = np.load(sys.argv[2])
+document = pymeshlab.MeshSet()
+document.add_mesh(pymeshlab.Mesh(limb["points"], limb["faces"]), "arm")
+document.set_verbosity(True)
+print(document.apply_filter("wovenfit_check_surface"))
+document.apply_filter("wovenfit_flatten_to_pattern", design_file=sys.argv[3])
+"""
+
+
+def test_the_log_says_what_the_limb_is_and_has_the_table(limb: Limb, tmp_path: Path) -> None:
+    np.savez(tmp_path / "limb.npz", points=limb.points, faces=limb.faces)
+    plugin = str(BUILD / "libfilter_wovenfit.so")
+    command = [
+        sys.executable,
+        "-c",
+        LOGGED,
+        plugin,
+        str(tmp_path / "limb.npz"),
+        str(limb.design_file),
+    ]
+    done = subprocess.run(command, capture_output=True, text=True, check=True, timeout=60)
+    assert "'defects': 0" in done.stdout
+    assert "'selected_faces': 0" in done.stdout
+    assert "tube: cut along a seam" in done.stdout
+    assert "This surface can be flattened." in done.stdout
+    pattern = of_abi(limb, limb.design)
+    for line in pattern.table.splitlines():
+        assert line in done.stdout
+    for warning in pattern.warnings:
+        assert "warning: " + warning.message in done.stdout
 
 
 def test_check_selects_what_is_broken(limb: Limb) -> None:
@@ -242,8 +293,11 @@ def test_check_selects_what_is_broken(limb: Limb) -> None:
     assert figures["defects"] == 1
     selected = document.current_mesh().face_selection_array()
     found = wovenfit.Check(wovenfit.Mesh(points, faces))
-    assert set(np.flatnonzero(selected)) == set(np.concatenate([d.triangles for d in found.defects]))
-    assert selected[-1] and figures["selected_faces"] == selected.sum()
+    assert set(np.flatnonzero(selected)) == set(
+        np.concatenate([d.triangles for d in found.defects])
+    )
+    assert selected[-1]
+    assert figures["selected_faces"] == selected.sum()
     assert "edge" in refused(document)
     # The selection of a sound layer is cleared.
     document.add_mesh(pymeshlab.Mesh(limb.points, limb.faces), "sound")
@@ -305,9 +359,15 @@ def test_nothing_is_written_where_nothing_is_made(limb: Limb, tmp_path: Path) ->
     assert not document.current_mesh().has_wedge_tex_coord()
 
 
-@pytest.mark.parametrize(("name", "said"), [("other_version", "version"), ("other_scalar", "precision")])
+@pytest.mark.parametrize(
+    ("name", "said"), [("other_version", "version"), ("other_scalar", "precision")]
+)
 def test_another_meshlabs_plugin_is_refused(name: str, said: str) -> None:
-    script = f"import pymeshlab; pymeshlab.load_plugin({str(BUILD / f'libfilter_wovenfit_{name}.so')!r})"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False, timeout=60)
+    script = (
+        f"import pymeshlab; pymeshlab.load_plugin({str(BUILD / f'libfilter_wovenfit_{name}.so')!r})"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False, timeout=60
+    )
     assert done.returncode == 1, done
     assert said in done.stderr
