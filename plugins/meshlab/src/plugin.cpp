@@ -1,6 +1,8 @@
 #include "plugin.h"
 
 #include <QApplication>
+#include <QMainWindow>
+#include <algorithm>
 
 #include "dialog.h"
 #include "filters.h"
@@ -8,10 +10,24 @@
 
 namespace {
 
-// The host's dialog shows HTML; a script without windows shows the text as it is.
+// Whether MeshLab has a window: its dialogs and its log show HTML then. A script is given plain text.
+bool in_window() {
+    if (qobject_cast<QApplication*>(QCoreApplication::instance()) == nullptr) {
+        return false;
+    }
+    const auto widgets = QApplication::topLevelWidgets();
+    return std::any_of(widgets.begin(), widgets.end(),
+                       [](const QWidget* one) { return qobject_cast<const QMainWindow*>(one) != nullptr; });
+}
+
 QString for_dialog(const QString& text) {
-    const bool windows = qobject_cast<QApplication*>(QCoreApplication::instance()) != nullptr;
-    return windows ? text.toHtmlEscaped().replace('\n', "<br>") : text;
+    return in_window() ? text.toHtmlEscaped().replace('\n', "<br>") : text;
+}
+
+// A line of the log; a table keeps its columns.
+QString for_log(const QString& line) {
+    const QChar hard_space(0x00a0);
+    return in_window() ? line.toHtmlEscaped().replace("  ", QString(2, hard_space)) : line;
 }
 
 // A flag that is up as long as this lives.
@@ -113,7 +129,9 @@ bool WovenFitPlugin::applyFilter(QAction* action, MeshDocument& document, const 
     }
 }
 
-void WovenFitPlugin::say(const QString& line) { Log(GLLogStream::FILTER, line.toUtf8().constData()); }
+void WovenFitPlugin::say(const QString& line) {
+    Log(GLLogStream::FILTER, for_log(line).toUtf8().constData());
+}
 
 #else
 
@@ -139,6 +157,8 @@ std::map<std::string, QVariant> WovenFitPlugin::applyFilter(HostAction* action,
     }
 }
 
-void WovenFitPlugin::say(const QString& line) { log(GLLogStream::FILTER, line.toUtf8().constData()); }
+void WovenFitPlugin::say(const QString& line) {
+    log(GLLogStream::FILTER, for_log(line).toUtf8().constData());
+}
 
 #endif

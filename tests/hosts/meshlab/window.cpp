@@ -89,7 +89,7 @@ private:
                 values.insert(bar->value());
             }
             if (has_layer("Pattern")) {
-                say(values.size() > 3 && farthest > 40, QString("the bar moves (%1 values)").arg(values.size()));
+                say(values.size() > 2 && farthest > 20, QString("the bar moves (%1 values)").arg(values.size()));
                 next(Shown, "Reset Trackball");
             }
             break;

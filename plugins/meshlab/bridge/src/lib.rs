@@ -2,7 +2,7 @@
 //!
 //! The bridge is the one place outside `ffi` where memory crosses a language, and cxx writes that code:
 //! nothing here is `unsafe` by hand. Like the C ABI it computes nothing. Every call that does work goes
-//! through [`guard::guarded`]: a refusal and a panic both become a C++ exception with a text; without
+//! through `guard.rs`: a refusal and a panic both become a C++ exception with a text; without
 //! that a panic would end the host.
 //!
 //! Coordinates given are in the mesh's unit; all that comes back is in mm, kPa and strains without
