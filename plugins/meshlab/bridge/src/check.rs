@@ -24,11 +24,6 @@ impl Check {
         self.0.to_text()
     }
 
-    /// The same as JSON.
-    pub(crate) fn json(&self) -> String {
-        self.0.to_json()
-    }
-
     /// What stops flattening.
     pub(crate) fn defects(&self) -> Vec<Defect> {
         // What a triangle names has 32 bits.

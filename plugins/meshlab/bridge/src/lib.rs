@@ -182,7 +182,6 @@ mod ffi {
         type Check;
         fn check_surface(input: &Input) -> Result<Box<Check>>;
         fn text(self: &Check) -> String;
-        fn json(self: &Check) -> String;
         fn defects(self: &Check) -> Vec<Defect>;
         fn warning_count(self: &Check) -> usize;
     }
