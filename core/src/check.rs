@@ -12,6 +12,10 @@ use crate::surface::{DefectKind, RawMesh, Shape, Surface, Validated, shape_of, v
 use crate::units::{LengthUnit, PER_M_PER_PER_MM};
 use crate::warning::Warning;
 
+/// The parameters that bear on what a surface is: what a dialog or a command for it offers.
+pub const CHECK_PARAMETERS: [&str; 6] =
+    ["units", "keep_largest", "close_holes", "curvature", "curvature_radius", "girth_step"];
+
 /// Checks a surface as [`flatten`](crate::flatten) would take it.
 ///
 /// Never fails: what stops flattening is in the report's `defects`.

@@ -34,7 +34,7 @@ pub mod units;
 pub mod warning;
 pub mod weave;
 
-pub use check::{check, check_for};
+pub use check::{CHECK_PARAMETERS, check, check_for};
 pub use error::Error;
 pub use files::ResultFile;
 pub use pipeline::{Flattening, Prepared, flatten};

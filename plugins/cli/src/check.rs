@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
+use wovenfit_core::CHECK_PARAMETERS;
 use wovenfit_core::design::Facing;
 use wovenfit_core::report::{CheckReport, Defect};
 
@@ -14,10 +15,6 @@ use crate::{flags, input, output};
 
 /// The command's name.
 pub const NAME: &str = "check";
-
-/// The parameters of the method that bear on what a surface is.
-const PARAMETERS: [&str; 6] =
-    ["units", "keep_largest", "close_holes", "curvature", "curvature_radius", "girth_step"];
 
 /// The command's description for the parser.
 pub fn command() -> Command {
@@ -49,7 +46,7 @@ pub fn command() -> Command {
                 .hide_possible_values(true)
                 .value_parser(PossibleValuesParser::new(["outward", "inward"])),
         );
-    flags::add(command, |name| PARAMETERS.contains(&name))
+    flags::add(command, |name| CHECK_PARAMETERS.contains(&name))
 }
 
 /// Runs the command.
