@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 mod check;
+pub mod cutting;
 mod denoise;
 pub mod design;
 mod error;
@@ -27,6 +28,7 @@ pub mod progress;
 pub mod report;
 pub mod samples;
 pub mod seams;
+pub mod sheet;
 pub mod surface;
 pub mod transfer;
 pub mod units;
@@ -35,5 +37,5 @@ pub mod weave;
 
 pub use check::{check, check_for};
 pub use error::Error;
-pub use files::ResultFile;
+pub use files::{PatternFile, PatternFormat, ResultFile};
 pub use pipeline::{Flattening, Prepared, flatten};
