@@ -37,6 +37,7 @@ from .errors import (
     UnknownStatus,
     WovenfitError,
 )
+from .formats import Format, pattern_formats
 from .job import Job, Prepared, Progress
 from .library import version
 from .mesh import Mesh
@@ -57,6 +58,7 @@ __all__ = [
     "DesignError",
     "Figures",
     "FitError",
+    "Format",
     "InternalError",
     "InvalidArgument",
     "Job",
@@ -93,5 +95,6 @@ __all__ = [
     "design_schema",
     "flatten",
     "parameter_table",
+    "pattern_formats",
     "version",
 ]
