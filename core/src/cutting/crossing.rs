@@ -9,8 +9,9 @@ use glam::DVec2;
 use super::allowance::right;
 use super::edges::{Edge, EdgeKind};
 
-/// Neighbouring parts of an outline may overlap over so many times their allowance: a hollow corner.
-const NEIGHBOURHOOD: f64 = 4.0;
+/// Neighbouring parts of an outline may overlap over so many times their allowance: a hollow corner of
+/// 90 degrees takes twice. What is farther apart along the outline is a bay that would be closed.
+const NEIGHBOURHOOD: f64 = 2.5;
 
 /// How far an allowance may reach into another before it counts, in mm.
 const SLACK: f64 = 0.2;

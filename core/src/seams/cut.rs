@@ -425,9 +425,10 @@ mod tests {
             for v in &chain[1..chain.len() - 1] {
                 assert!(!cut.disk.is_boundary_vertex(*v));
             }
-            // Vertices of the surface keep their place in the list.
+            // Vertices of the surface keep their place in the list, some moved onto the seam; the next
+            // ones are 5 mm away.
             for v in s.vertex_ids() {
-                assert_eq!(s.point(v), cut.disk.point(v), "{mesh:?}");
+                assert!(s.point(v).distance(cut.disk.point(v)) < 2.0, "{mesh:?}");
             }
         }
     }
