@@ -41,4 +41,4 @@ with tempfile.TemporaryDirectory() as scratch:
         '<!DOCTYPE html><meta charset="utf-8">'
         "<style>body{margin:0} svg{width:800px;height:auto;display:block}</style>" + drawing
     )
-    shot(frame, 800, 880, "demo-pattern.png")
+    shot(frame, 800, 1010, "demo-pattern.png")

@@ -134,6 +134,27 @@ typedef int32_t wovenfit_status;
 #endif // __STDC_VERSION__ >= 202311L
 #endif // __cplusplus
 
+// A text about a format of the pattern.
+enum wovenfit_format_text
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Its short name: "pdf-a4".
+  WOVENFIT_FORMAT_TEXT_NAME = 1,
+  // What its file is called: "pattern-a4.pdf".
+  WOVENFIT_FORMAT_TEXT_FILE_NAME = 2,
+  // What it is for, in one line.
+  WOVENFIT_FORMAT_TEXT_SUMMARY = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum wovenfit_format_text wovenfit_format_text;
+#else
+typedef int32_t wovenfit_format_text;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
 // A stage of a job, in the order in which they come. Stages that are not needed are left out.
 enum wovenfit_job_stage
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
@@ -635,7 +656,9 @@ wovenfit_status wovenfit_design_schema(char *buffer,
 
 // Sets a number by its name in the design file: "fabric.warp", "fabric.weft", "fabric.diagonal" (all
 // N/mm), "fabric.s", "fabric.max_strain", "fabric.weft_strain" (strains, no unit),
-// "limits.max_kpa" (kPa). Ranges are the design file's (WOVENFIT_STATUS_DESIGN).
+// "limits.max_kpa" (kPa), "piece.quantity", "piece.seam_allowance_mm", "piece.top_allowance_mm",
+// "piece.bottom_allowance_mm", "piece.edge_allowance_mm", "piece.notch_spacing_mm" (mm).
+// Ranges are the design file's (WOVENFIT_STATUS_DESIGN).
 //
 // One thread at a time.
 wovenfit_status wovenfit_design_set_number(struct wovenfit_design *design,
@@ -644,7 +667,8 @@ wovenfit_status wovenfit_design_set_number(struct wovenfit_design *design,
                                            struct wovenfit_error **error);
 
 // Sets a text by its name in the design file: "fabric.name", "pressure_model" ("laplace" or
-// "paper"), "facing" ("outward" or "inward"), "piece.name", "piece.reference", "piece.date".
+// "paper"), "facing" ("outward" or "inward"), "piece.name", "piece.reference", "piece.date",
+// "piece.material".
 //
 // One thread at a time.
 wovenfit_status wovenfit_design_set_text(struct wovenfit_design *design,
@@ -691,6 +715,46 @@ wovenfit_status wovenfit_error_text(const struct wovenfit_error *error,
 //
 // The object must not be in use by another thread.
 void wovenfit_error_free(struct wovenfit_error *error);
+
+// Number of formats of the pattern. They are counted from 0 in the order in which menus show them.
+//
+// Any thread.
+size_t wovenfit_format_count(void);
+
+// A text about a format of the pattern; `what` is a wovenfit_format_text.
+//
+// Any thread.
+wovenfit_status wovenfit_format_describe(size_t index,
+                                         int32_t what,
+                                         char *buffer,
+                                         size_t capacity,
+                                         size_t *needed,
+                                         struct wovenfit_error **error);
+
+// The pattern of a result as a file's bytes, with the pieces of its design: allowances, notches, what
+// is written on them. `format` is a format's short name; `unit`, "mm" or "in", is that of the numbers
+// in SVG and DXF and of the words in all. The first call for one makes it.
+//
+// Any thread.
+wovenfit_status wovenfit_result_pattern(const struct wovenfit_result *result,
+                                        const char *format,
+                                        const char *unit,
+                                        uint8_t *buffer,
+                                        size_t capacity,
+                                        size_t *count,
+                                        struct wovenfit_error **error);
+
+// What a format of the pattern cannot hold and says instead, a line each: letters of a name, a name
+// that is too long. Empty where it holds all. Arguments as for wovenfit_result_pattern.
+//
+// Any thread.
+wovenfit_status wovenfit_result_pattern_notes(const struct wovenfit_result *result,
+                                              const char *format,
+                                              const char *unit,
+                                              char *buffer,
+                                              size_t capacity,
+                                              size_t *needed,
+                                              struct wovenfit_error **error);
 
 // Starts the way from a mesh and a design to a pattern, on a thread of its own.
 //

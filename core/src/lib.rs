@@ -7,6 +7,7 @@
 #![forbid(unsafe_code)]
 
 mod check;
+pub mod cutting;
 mod denoise;
 pub mod design;
 mod error;
@@ -27,6 +28,7 @@ pub mod progress;
 pub mod report;
 pub mod samples;
 pub mod seams;
+pub mod sheet;
 pub mod sparse;
 pub mod surface;
 pub mod transfer;
@@ -36,5 +38,5 @@ pub mod weave;
 
 pub use check::{CHECK_PARAMETERS, check, check_for};
 pub use error::Error;
-pub use files::ResultFile;
+pub use files::{PatternFile, PatternFormat, ResultFile};
 pub use pipeline::{Flattening, Prepared, flatten};

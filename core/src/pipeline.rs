@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use crate::cutting::{Mark, MarkKind, Piece, Wanted, pieces};
 use crate::denoise::{Calm, calm};
 use crate::design::Design;
 use crate::error::Error;
@@ -43,6 +44,8 @@ pub struct Flattening {
     pub girths: Vec<Girth>,
     /// The pattern as a drawing.
     pub drawing: Drawing,
+    /// The pieces to cut.
+    pub pieces: Vec<Piece>,
     /// Every figure and warning.
     pub report: Report,
     /// What the next fit of the same surface starts from.
@@ -307,8 +310,17 @@ impl Prepared {
             field: &field,
             y_zero: -corner.y,
         };
-        let report = compose(&found, warnings);
         let drawing = draw(&found, &cut, &coordinates, &markers);
+        let (pieces, said) = pieces(&Wanted {
+            cut: &cut,
+            coordinates: &coordinates,
+            piece: &design.piece,
+            fabric: &design.fabric.name,
+            marks: marks(&drawing),
+            overlaps: !pattern.overlaps.is_empty(),
+        });
+        warnings.extend(said);
+        let report = compose(&found, warnings);
         // Nobody is given what he has cancelled.
         go_on(progress)?;
         let girths = self.measures.girths.clone();
@@ -320,6 +332,7 @@ impl Prepared {
             field,
             girths,
             drawing,
+            pieces,
             report,
             fit,
             kept,
@@ -465,6 +478,17 @@ fn mean_y(plane: &[DVec2]) -> f64 {
 fn to_origin(plane: &[DVec2]) -> (Vec<DVec2>, DVec2) {
     let corner = plane.iter().copied().reduce(DVec2::min).unwrap_or_default();
     (plane.iter().map(|&p| p - corner).collect(), corner)
+}
+
+/// What is marked on the pieces.
+fn marks(drawing: &Drawing) -> Vec<Mark> {
+    let markers = [MarkKind::Upper, MarkKind::Lower].into_iter().zip(drawing.markers);
+    let markers = markers.map(|(kind, at)| Mark { kind, at, words: String::new() });
+    let points = drawing.points.iter().enumerate().map(|(k, (at, value))| {
+        let words = format!("{}: {value}", k + 1);
+        Mark { kind: MarkKind::Pressure, at: *at, words }
+    });
+    markers.chain(points).collect()
 }
 
 /// The pattern as a drawing, with the wanted pressures as labels.

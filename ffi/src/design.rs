@@ -196,7 +196,9 @@ pub unsafe extern "C" fn wovenfit_design_schema(
 
 /// Sets a number by its name in the design file: "fabric.warp", "fabric.weft", "fabric.diagonal" (all
 /// N/mm), "fabric.s", "fabric.max_strain", "fabric.weft_strain" (strains, no unit),
-/// "limits.max_kpa" (kPa). Ranges are the design file's (WOVENFIT_STATUS_DESIGN).
+/// "limits.max_kpa" (kPa), "piece.quantity", "piece.seam_allowance_mm", "piece.top_allowance_mm",
+/// "piece.bottom_allowance_mm", "piece.edge_allowance_mm", "piece.notch_spacing_mm" (mm).
+/// Ranges are the design file's (WOVENFIT_STATUS_DESIGN).
 ///
 /// One thread at a time.
 ///
@@ -223,7 +225,8 @@ pub unsafe extern "C" fn wovenfit_design_set_number(
 }
 
 /// Sets a text by its name in the design file: "fabric.name", "pressure_model" ("laplace" or
-/// "paper"), "facing" ("outward" or "inward"), "piece.name", "piece.reference", "piece.date".
+/// "paper"), "facing" ("outward" or "inward"), "piece.name", "piece.reference", "piece.date",
+/// "piece.material".
 ///
 /// One thread at a time.
 ///

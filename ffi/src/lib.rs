@@ -12,6 +12,7 @@ mod buffers;
 mod check;
 mod design;
 mod failure;
+mod formats;
 mod guard;
 mod job;
 mod limits;
@@ -27,6 +28,10 @@ mod wishes;
 pub use check::*;
 pub use design::*;
 pub use failure::{Error, wovenfit_error_free, wovenfit_error_status, wovenfit_error_text};
+pub use formats::{
+    FormatText, wovenfit_format_count, wovenfit_format_describe, wovenfit_result_pattern,
+    wovenfit_result_pattern_notes,
+};
 pub use job::*;
 pub use limits::*;
 pub use mesh::*;

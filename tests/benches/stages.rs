@@ -23,6 +23,7 @@ use wovenfit_core::pattern::{free_edges, pattern};
 use wovenfit_core::progress::Silent;
 use wovenfit_core::samples::sample;
 use wovenfit_core::seams::{CutSurface, Markers, clip, open_to_disk, place};
+use wovenfit_core::sheet::SheetUnit;
 use wovenfit_core::sparse::Matrix;
 use wovenfit_core::surface::{Format, RawMesh, Surface, SurfaceOptions, read, validate};
 use wovenfit_core::units::LengthUnit;
@@ -92,6 +93,7 @@ fn page_of(done: &Flattening) -> PageInput<'_> {
         warp_strain: &done.field.warp_strain,
         pressure_kpa: Some(&done.field.pressure_kpa),
         limit_kpa: Limits::WARN_KPA,
+        workshop: None,
     }
 }
 
@@ -150,7 +152,7 @@ fn stages(criterion: &mut Criterion) {
             (
                 worn_obj(done.disk(), &done.coordinates),
                 flat_obj(done.disk(), &done.coordinates),
-                pattern_svg(&done.drawing),
+                pattern_svg(&done.sheet(SheetUnit::Millimetre)),
                 done.report.to_json(),
             )
         });

@@ -1,6 +1,7 @@
 //! Whole runs of the program, judged by what it prints and writes.
 
 mod cli;
+mod cutter;
 mod demo;
 mod field;
 mod files;

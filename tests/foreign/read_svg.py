@@ -1,7 +1,8 @@
 """Reads a pattern with a foreign SVG reader (svgelements) and compares its size with the report.
 
-Usage: read_svg.py FOLDER, one that `wovenfit flatten` wrote. The reader has 96 pixels to the inch
-as CSS does, so a drawing in pixels or with a scaled view comes out at another size.
+Usage: read_svg.py FOLDER, one that `wovenfit flatten` wrote without allowances. The reader has 96
+pixels to the inch as CSS does, so a drawing in pixels or with a scaled view comes out at another
+size.
 """
 
 import json

@@ -67,6 +67,44 @@ def test_every_file_is_the_command_lines(name: str, program: Path, tmp_path: Pat
         assert len(theirs) > 1000
 
 
+def test_the_formats_of_the_pattern_are_the_command_lines(program: Path, tmp_path: Path) -> None:
+    limb = tube()
+    write_ply(tmp_path / "limb.ply", limb.positions, limb.triangles)
+    # A Greek letter is in no format's alphabet but SVG's and DXF's.
+    piece = {"name": "sleeve β", "quantity": 2, "seam_allowance_mm": 8, "top_allowance_mm": 15}
+    text = json.dumps({**DESIGNS["tube"], "piece": piece}, ensure_ascii=False)
+    (tmp_path / "design.json").write_text(text, encoding="utf-8")
+    formats = wovenfit.pattern_formats()
+    command = [program, "flatten", tmp_path / "limb.ply", "--design", tmp_path / "design.json"]
+    command += ["--out", tmp_path / "theirs", "--quiet", "--spacing", "6", "--pattern-units", "in"]
+    command += ["--format", ",".join(row.name for row in formats)]
+    ran = subprocess.run(command, check=True, capture_output=True, text=True)
+
+    design = wovenfit.Design.from_json(text)
+    pattern = wovenfit.flatten(limb.positions, limb.triangles, design, parameters={"spacing": 6.0})
+    pattern.write(tmp_path / "ours", formats=[row.name for row in formats], unit="in")
+    theirs = contents(tmp_path / "theirs")
+    assert contents(tmp_path / "ours") == theirs
+    for row in formats:
+        assert pattern.export(row.name, "in") == theirs[row.file_name]
+        for note in pattern.export_notes(row.name, "in"):
+            assert f"note: {note}\n" in ran.stderr
+    assert [row.name for row in formats if pattern.export_notes(row.name)] == [
+        "pdf",
+        "pdf-a4",
+        "pdf-letter",
+        "dxf-astm",
+        "dxf-gerber",
+    ]
+    assert "sleeve ?" in pattern.export_notes("dxf-astm")[0]
+    for wrong in ({"format": "docx"}, {"format": "dxf", "unit": "cm"}):
+        with pytest.raises(wovenfit.InvalidArgument, match="give"):
+            pattern.export(**wrong)
+    with pytest.raises(wovenfit.InvalidArgument, match="give one of"):
+        pattern.write(tmp_path / "none", formats=["docx"])
+    assert not (tmp_path / "none").exists()
+
+
 def contents(folder: Path) -> dict[str, bytes]:
     return {str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()}
 

@@ -27,6 +27,7 @@ KINDS: dict[str, object] = {
     "const uint32_t *": POINTER(ctypes.c_uint32),
     "uint32_t *": POINTER(ctypes.c_uint32),
     "size_t *": POINTER(ctypes.c_size_t),
+    "uint8_t *": POINTER(ctypes.c_uint8),
 }
 
 STRUCTS = {
@@ -41,6 +42,7 @@ ENUMS = {
     "wovenfit_job_stage": abi.JobStage,
     "wovenfit_job_state": abi.JobState,
     "wovenfit_note_text": abi.NoteText,
+    "wovenfit_format_text": abi.FormatText,
     "wovenfit_parameter_kind": abi.ParameterKind,
     "wovenfit_parameter_text": abi.ParameterText,
     "wovenfit_result_array": abi.ResultArray,

@@ -20,7 +20,7 @@ impl Design {
             let remedy = "say the unit where coordinates are given; here they are in mm";
             return Err(DesignError::value(path, value, remedy));
         }
-        self.put(path, Some(value))
+        self.put(path, Some(whole(value)))
     }
 
     /// Takes a wish out by its place in the design file, so that its default holds.
@@ -80,6 +80,18 @@ impl Design {
         let mut file = to_value(&self)?;
         change(&mut file);
         Ok(Self { unit: self.unit, region_faces, warnings, ..from_value(file)? })
+    }
+}
+
+/// A number without a fraction as a whole one: a program may hold all its numbers as floating ones.
+fn whole(value: Value) -> Value {
+    /// Up to here they are exact.
+    const MOST: f64 = (1u64 << 53) as f64;
+    match value.as_f64() {
+        Some(x) if value.is_f64() && x.fract() == 0.0 && (0.0..=MOST).contains(&x) => {
+            Value::from(x as u64)
+        }
+        _ => value,
     }
 }
 

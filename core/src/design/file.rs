@@ -9,10 +9,11 @@ use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
+use sha2::{Digest, Sha256};
 
 use super::error::DesignError;
 use super::{
-    Design, Fabric, Facing, Limits, Piece, PressureModel, RegionPlane, WantedPressure,
+    Design, Fabric, Facing, FileHash, Limits, Piece, PressureModel, RegionPlane, WantedPressure,
     schema as check,
 };
 use crate::export::json_text;
@@ -35,6 +36,12 @@ const LEAST_MARKER_DISTANCE: f64 = 1.0;
 
 /// Least length of a region plane's normal: shorter ones are zeros with rounding errors.
 const LEAST_NORMAL: f64 = 1e-9;
+
+/// The widest allowance, in mm: wider ones are no seam or hem of a brace.
+const MOST_ALLOWANCE: f64 = 100.0;
+
+/// The least distance of notches, in mm: closer ones weaken the edge.
+const LEAST_NOTCH_SPACING: f64 = 10.0;
 
 type Point = [f64; 3];
 
@@ -78,8 +85,8 @@ struct DesignFile {
     /// Limits that are checked.
     #[serde(default, skip_serializing_if = "LimitsFile::is_empty")]
     limits: LimitsFile,
-    /// What is written on the piece.
-    #[serde(default, skip_serializing_if = "PieceFile::is_empty")]
+    /// How the piece is cut and what is written on it.
+    #[serde(default, skip_serializing_if = "PieceFile::is_default")]
     piece: PieceFile,
 }
 
@@ -175,8 +182,8 @@ impl LimitsFile {
     }
 }
 
-/// What is written on the piece.
-#[derive(Debug, Default, Serialize, Deserialize, JsonSchema)]
+/// How the piece is cut and what is written on it.
+#[derive(Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 struct PieceFile {
     /// Name of the piece.
@@ -188,11 +195,92 @@ struct PieceFile {
     /// Date, as it is to be written.
     #[serde(skip_serializing_if = "String::is_empty")]
     date: String,
+    /// How often it is cut.
+    #[serde(skip_serializing_if = "is_one")]
+    #[schemars(range(min = 1, max = 1000))]
+    quantity: usize,
+    /// What it is cut from. Without it the fabric's name.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    material: String,
+    /// Seam allowance of sewn sides, in mm, outside the sew line. With 0 they are joined edge to edge.
+    #[serde(skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0.0, max = MOST_ALLOWANCE))]
+    seam_allowance_mm: f64,
+    /// Allowance at the end near the body, in mm. It is turned down along the edge.
+    #[serde(skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0.0, max = MOST_ALLOWANCE))]
+    top_allowance_mm: f64,
+    /// Allowance at the far end, in mm. It is turned up along the edge.
+    #[serde(skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0.0, max = MOST_ALLOWANCE))]
+    bottom_allowance_mm: f64,
+    /// Allowance at every other edge, in mm: cut-outs, and the edge of a piece that goes not round the limb.
+    #[serde(skip_serializing_if = "is_zero")]
+    #[schemars(range(min = 0.0, max = MOST_ALLOWANCE))]
+    edge_allowance_mm: f64,
+    /// Distance of the notches along a seam, in mm, about. 0 for none.
+    #[serde(skip_serializing_if = "is_default_spacing")]
+    #[schemars(range(min = 0.0, max = 1000.0))]
+    notch_spacing_mm: f64,
+}
+
+impl Default for PieceFile {
+    fn default() -> Self {
+        Piece::default().into()
+    }
 }
 
 impl PieceFile {
-    fn is_empty(&self) -> bool {
-        self.name.is_empty() && self.reference.is_empty() && self.date.is_empty()
+    fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+fn is_default_spacing(value: &f64) -> bool {
+    *value == Piece::default().notch_spacing_mm
+}
+
+fn is_one(value: &usize) -> bool {
+    *value == 1
+}
+
+impl From<Piece> for PieceFile {
+    fn from(piece: Piece) -> Self {
+        let Piece { name, reference, date, quantity, material, notch_spacing_mm, .. } = piece;
+        Self {
+            name,
+            reference,
+            date,
+            quantity,
+            material,
+            seam_allowance_mm: piece.seam_allowance_mm,
+            top_allowance_mm: piece.top_allowance_mm,
+            bottom_allowance_mm: piece.bottom_allowance_mm,
+            edge_allowance_mm: piece.edge_allowance_mm,
+            notch_spacing_mm,
+        }
+    }
+}
+
+impl From<PieceFile> for Piece {
+    fn from(piece: PieceFile) -> Self {
+        let PieceFile { name, reference, date, quantity, material, notch_spacing_mm, .. } = piece;
+        Self {
+            name,
+            reference,
+            date,
+            quantity,
+            material,
+            seam_allowance_mm: piece.seam_allowance_mm,
+            top_allowance_mm: piece.top_allowance_mm,
+            bottom_allowance_mm: piece.bottom_allowance_mm,
+            edge_allowance_mm: piece.edge_allowance_mm,
+            notch_spacing_mm,
+        }
     }
 }
 
@@ -211,9 +299,9 @@ pub fn schema() -> Value {
 /// # Errors
 /// If the text is no JSON, has a key that is not known or is given twice, or a value that cannot
 /// be used; with the place in the file and the remedy.
-pub fn parse(json: &str, surface_unit: Option<LengthUnit>) -> Result<Design, DesignError> {
+pub fn parse(given: &str, surface_unit: Option<LengthUnit>) -> Result<Design, DesignError> {
     // Editors on Windows put a byte order mark first.
-    let json = json.strip_prefix('\u{feff}').unwrap_or(json);
+    let json = given.strip_prefix('\u{feff}').unwrap_or(given);
     if json.trim().is_empty() {
         let reason = "the file is empty; the least is {\"pressures\": []}".to_owned();
         return Err(DesignError::Syntax { line: 1, column: 1, reason });
@@ -222,7 +310,13 @@ pub fn parse(json: &str, surface_unit: Option<LengthUnit>) -> Result<Design, Des
     check::check(&value, &schema(), "")?;
     // From the text, not the value: of a key given twice the value keeps but the last.
     let file: DesignFile = serde_json::from_str(json).map_err(|e| DesignError::from(&e))?;
-    from_file(file, surface_unit)
+    let hash = FileHash(Some(sha256(given.as_bytes())));
+    Ok(Design { file: hash, ..from_file(file, surface_unit)? })
+}
+
+/// The SHA-256 of bytes, in hexadecimal digits as `sha256sum` prints it.
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// The design of a file whose keys, types and ranges are those of the schema.
@@ -269,12 +363,9 @@ fn from_file(file: DesignFile, surface_unit: Option<LengthUnit>) -> Result<Desig
         region_faces: file.region_faces,
         facing: file.facing,
         limits: Limits { max_kpa: file.limits.max_kpa, bony: bony.collect::<Result<_, _>>()? },
-        piece: Piece {
-            name: file.piece.name,
-            reference: file.piece.reference,
-            date: file.piece.date,
-        },
+        piece: piece(file.piece)?,
         warnings: Vec::new(),
+        file: FileHash(None),
     })
 }
 
@@ -378,6 +469,15 @@ fn rounded(value: f64, decimals: i32) -> f64 {
     (value * factor).round() / factor
 }
 
+fn piece(piece: PieceFile) -> Result<Piece, DesignError> {
+    let spacing = piece.notch_spacing_mm;
+    if spacing > 0.0 && spacing < LEAST_NOTCH_SPACING {
+        let remedy = format!("give {LEAST_NOTCH_SPACING} mm or more, or 0 for no notches");
+        return Err(DesignError::value("piece.notch_spacing_mm", spacing, remedy));
+    }
+    Ok(piece.into())
+}
+
 fn orientation(pair: [Point; 2], unit: LengthUnit) -> Result<[DVec3; 2], DesignError> {
     let first = position(pair[0], unit, "orientation[0]".to_owned())?;
     let second = position(pair[1], unit, "orientation[1]".to_owned())?;
@@ -443,6 +543,16 @@ impl Design {
         json_text(&self.to_file())
     }
 
+    /// The SHA-256 of the design in hexadecimal digits, and whether it is that of a file: of the file
+    /// that it was read from and not changed since, else of the file that [`Design::to_json`] gives.
+    #[must_use]
+    pub fn sha256(&self) -> (String, bool) {
+        match &self.file.0 {
+            Some(hash) => (hash.clone(), true),
+            None => (sha256(self.to_json().as_bytes()), false),
+        }
+    }
+
     fn to_file(&self) -> DesignFile {
         let points = |list: &[DVec3]| list.iter().map(DVec3::to_array).collect();
         DesignFile {
@@ -464,11 +574,7 @@ impl Design {
             region_faces: self.region_faces.clone(),
             facing: self.facing,
             limits: LimitsFile { max_kpa: self.limits.max_kpa, bony: points(&self.limits.bony) },
-            piece: PieceFile {
-                name: self.piece.name.clone(),
-                reference: self.piece.reference.clone(),
-                date: self.piece.date.clone(),
-            },
+            piece: self.piece.clone().into(),
         }
     }
 }

@@ -47,6 +47,8 @@ pub struct Design {
     pub piece: Piece,
     /// What was done to the wishes before they stood here, for the report; no part of a design file.
     pub warnings: Vec<Warning>,
+    /// Of the file that it was read from; no part of it.
+    pub file: FileHash,
 }
 
 /// A linear woven fabric.
@@ -142,8 +144,8 @@ impl Limits {
     pub const WARN_KPA: f64 = 6.5;
 }
 
-/// What is written on the piece.
-#[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
+/// How the piece is cut and what is written on it.
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Piece {
     /// Name of the piece.
     pub name: String,
@@ -151,4 +153,50 @@ pub struct Piece {
     pub reference: String,
     /// Date, as the designer writes it.
     pub date: String,
+    /// How often it is cut.
+    pub quantity: usize,
+    /// What it is cut from; where it is empty, the fabric's name.
+    pub material: String,
+    /// Allowance outside the sew line of sewn sides, in mm.
+    pub seam_allowance_mm: f64,
+    /// Allowance at the end near the body, in mm.
+    pub top_allowance_mm: f64,
+    /// Allowance at the far end, in mm.
+    pub bottom_allowance_mm: f64,
+    /// Allowance at every other edge (cut-outs, the edge of a patch), in mm.
+    pub edge_allowance_mm: f64,
+    /// Distance of notches along a seam, in mm; 0 for none.
+    pub notch_spacing_mm: f64,
+}
+
+impl Default for Piece {
+    /// One piece without allowance: elastic fabric is mostly joined edge to edge (flat seams), and an
+    /// allowance that nobody asked for, sewn in, would make the brace wider than computed.
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            reference: String::new(),
+            date: String::new(),
+            quantity: 1,
+            material: String::new(),
+            seam_allowance_mm: 0.0,
+            top_allowance_mm: 0.0,
+            bottom_allowance_mm: 0.0,
+            edge_allowance_mm: 0.0,
+            // Two hands hold the fabric at both ends of some 5 cm while it is sewn.
+            notch_spacing_mm: 50.0,
+        }
+    }
+}
+
+/// The SHA-256 of the file that a design was read from, if it is still as it was read.
+///
+/// No wish: designs from different files are equal if their wishes are.
+#[derive(Debug, Clone, Default)]
+pub struct FileHash(pub Option<String>);
+
+impl PartialEq for FileHash {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }

@@ -25,7 +25,9 @@ pub(super) fn check(value: &Value, schema: &Value, path: &str) -> Result<(), Des
         (Some("array"), _) => Err(refuse(value, schema, path, &list_wanted(schema))),
         (Some("number"), Value::Number(_)) => check_range(value, schema, path),
         (Some("number"), _) => Err(refuse(value, schema, path, "give a number")),
-        (Some("integer"), Value::Number(number)) if number.is_u64() => Ok(()),
+        (Some("integer"), Value::Number(number)) if number.is_u64() => {
+            check_range(value, schema, path)
+        }
         (Some("integer"), _) => Err(refuse(value, schema, path, "give a whole number, 0 or more")),
         (Some("string"), Value::String(_)) => Ok(()),
         (Some("string"), _) => Err(refuse(value, schema, path, "give a text in quotes")),

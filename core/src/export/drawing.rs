@@ -1,8 +1,8 @@
-//! What a pattern drawing shows, before any format.
+//! The pattern as it was computed, for the report's pictures. What is cut is drawn by `sheet`.
 
 use glam::DVec2;
 
-/// A flat pattern ready to be drawn; lengths in mm, x along warp, y along weft and up.
+/// A flat pattern; lengths in mm, x along warp, y along weft and up.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Drawing {
     /// Closed loops, the closing point not repeated: the outer one first, counter-clockwise, then

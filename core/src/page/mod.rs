@@ -21,7 +21,6 @@ mod tables;
 use glam::DVec2;
 use rayon::prelude::*;
 
-use self::girth::GirthPair;
 use self::html::{Tag, shown, tag};
 use self::limb::Limb;
 pub use self::paper::paper_html;
@@ -29,7 +28,7 @@ use self::plan::Plan;
 use self::quantity::{Quantity, vertex_areas};
 use crate::export::Drawing;
 use crate::geometry::Girth;
-use crate::report::Report;
+use crate::report::{GirthPair, Report, Workshop, girth_pairs};
 use crate::surface::Surface;
 use crate::units::mmhg_from_kpa;
 use crate::warning::Warning;
@@ -54,6 +53,8 @@ pub struct PageInput<'a> {
     pub pressure_kpa: Option<&'a [f64]>,
     /// Pressure above which pictures are hatched, in kPa.
     pub limit_kpa: f64,
+    /// What the workshop gets, if the page has it.
+    pub workshop: Option<&'a Workshop>,
 }
 
 /// What the model leaves out.
@@ -83,7 +84,7 @@ pub fn report_html(input: &PageInput<'_>) -> String {
     }
     // The pictures are what takes long.
     let (pairs, (on_limb, flat)) = rayon::join(
-        || girth::girths(input),
+        || girth_pairs(input.disk, input.coordinates, input.girths),
         || rayon::join(|| limb(input, &quantities), || pattern(input, &quantities)),
     );
     let body = tag("body")
@@ -97,6 +98,7 @@ pub fn report_html(input: &PageInput<'_>) -> String {
         .child(curves(input))
         .child(girths(input, &pairs))
         .child(fabric(input))
+        .children(input.workshop.map(tables::workshop))
         .child(
             tag("section")
                 .class("limits")
@@ -288,7 +290,7 @@ fn pattern(input: &PageInput<'_>, quantities: &[Quantity]) -> Tag {
         .child(note(
             "Seen from the outside of the brace, not to scale: cut from pattern.svg, printed at \
              100 %. Colours as above; the small figures are values. Circles: wanted pressures. \
-             \u{25c7}: orientation markers. Dashes: seams, sewn together. No seam allowance.",
+             \u{25c7}: orientation markers. Dashes: seams, sewn together, without allowance.",
         ))
         .child(tag("div").class(class).children(figures))
 }

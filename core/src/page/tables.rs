@@ -1,10 +1,9 @@
 //! The tables of the page: pressures, girths, fabric, settings.
 
 use super::PageInput;
-use super::girth::GirthPair;
 use super::html::{Tag, shown, shown_or_dash, tag};
 use crate::design::PressureModel;
-use crate::report::PressureReport;
+use crate::report::{GirthPair, PressureReport, Workshop};
 use crate::units::mmhg_from_kpa;
 
 /// Most points in the table; a painted field has thousands.
@@ -161,4 +160,25 @@ pub(super) fn settings(input: &PageInput<'_>) -> Tag {
     tag("ul").class("settings").children(entries.map(|(name, value)| {
         tag("li").child(tag("b").text(name.replace('_', "-"))).child(tag("span").text(value))
     }))
+}
+
+/// The workshop sheet.
+pub(super) fn workshop(sheet: &Workshop) -> Tag {
+    let sections = sheet.sections.iter().map(|section| {
+        let head = section.head.iter().map(|words| head(words).class("words"));
+        let rows = section
+            .rows
+            .iter()
+            .map(|cells| tag("tr").children(cells.iter().map(|words| cell(words).class("words"))));
+        let mut block = tag("div").class("keep").child(tag("h3").text(section.title));
+        if !section.rows.is_empty() {
+            let mut table = tag("table").class("sheet");
+            if !section.head.is_empty() {
+                table = table.child(tag("thead").child(tag("tr").children(head)));
+            }
+            block = block.child(table.child(tag("tbody").children(rows)));
+        }
+        block.children(section.notes.iter().map(|note| tag("p").class("note").text(note)))
+    });
+    tag("section").class("workshop").child(tag("h2").text("For the workshop")).children(sections)
 }

@@ -151,6 +151,7 @@ fn page(sleeve: &Sleeve, everywhere: bool) -> String {
         warp_strain: &vec![0.25; sleeve.disk.vertex_count()],
         pressure_kpa: everywhere.then_some(&sleeve.pressure),
         limit_kpa: 6.5,
+        workshop: None,
     })
 }
 
@@ -242,8 +243,12 @@ fn what_a_user_wrote_stays_text() {
     let hostile = "<script>alert(1)</script>\"'&\u{1}</td><!--";
     let mut sleeve = sleeve();
     let report = &mut sleeve.report;
-    report.piece =
-        Piece { name: hostile.to_owned(), reference: hostile.to_owned(), date: hostile.to_owned() };
+    report.piece = Piece {
+        name: hostile.to_owned(),
+        reference: hostile.to_owned(),
+        date: hostile.to_owned(),
+        ..Piece::default()
+    };
     report.fabric.name = hostile.to_owned();
     report.warnings = vec![Warning::new("x", hostile)];
     report.pressures[1].reason = Some(Reason { code: "x", text: hostile.to_owned() });

@@ -8,6 +8,7 @@ use glam::DVec3;
 
 use super::cutter::Cutter;
 use super::error::SeamError;
+use super::pieces::{Joined, join};
 use super::sewing::{Seam, Sewing};
 use super::shape::{Shape, same_edge};
 use crate::surface::{HalfEdgeId, Surface, VertexId};
@@ -21,6 +22,9 @@ pub struct CutSurface {
     pub disk: Surface,
     /// What is sewn together again.
     pub seams: Vec<Seam>,
+    /// Chains of vertices inside the disk along which the pattern is cut apart into pieces and sewn
+    /// together again.
+    pub splits: Vec<Vec<VertexId>>,
     /// The two ends of the limb, if the sewn surface is a tube.
     pub ends: Option<Ends>,
     /// What the designer should know.
@@ -64,9 +68,11 @@ impl CutSurface {
 /// them, polylines of points in mm near the surface, or where there are none along its shortest
 /// straight seam. The two longest edges of a tube are its ends, further ones stay as cut-outs.
 ///
+/// Seams that split the surface are joined again for the fit, see [`CutSurface::splits`].
+///
 /// # Errors
 /// If the surface is closed or has handles, if a seam's point is far from it, or if the seams do
-/// not leave one piece that is open from end to end.
+/// not leave it open from end to end.
 pub fn open_to_disk(surface: &Surface, seams: &[Vec<DVec3>]) -> Result<CutSurface, SeamError> {
     let shape = Shape::of(surface)?;
     let mut warnings = shape.warnings.clone();
@@ -80,7 +86,10 @@ pub fn open_to_disk(surface: &Surface, seams: &[Vec<DVec3>]) -> Result<CutSurfac
     for (i, seam) in seams.iter().enumerate() {
         cutter.designed(i + 1, seam, &shape.sewn)?;
     }
-    finish(cutter.cut()?, &shape, warnings)
+    let Joined { disk, splits, warning } = join(cutter.cut()?)?;
+    warnings.extend(warning);
+    let cut = finish(disk, &shape, warnings)?;
+    Ok(CutSurface { splits, ..cut })
 }
 
 /// Checks the cut surface and finds its seams and ends.
@@ -119,7 +128,7 @@ fn finish(disk: Surface, shape: &Shape, warnings: Vec<Warning>) -> Result<CutSur
         });
     }
     let seams = sewing.seams().into_iter().map(|seam| direct(&disk, seam, ends.as_ref())).collect();
-    Ok(CutSurface { seams, ends, warnings, disk })
+    Ok(CutSurface { seams, splits: Vec::new(), ends, warnings, disk })
 }
 
 /// The vertices along a loop of the sewn surface, beginning where the disk's boundary leaves it;
@@ -396,8 +405,50 @@ mod tests {
         assert!((total - 200.0 - f64::hypot(0.2 * TAU * 40.0, 10.0)).abs() < 1.5, "{total}");
         let across =
             vec![round(40.0, -0.1, 200.0), round(40.0, 0.1, 100.0), round(40.0, -0.1, 0.0)];
-        let error = open_to_disk(&s, &[main, across]).unwrap_err();
-        assert!(matches!(error, SeamError::Split { pieces: 4, .. }), "{error}");
+        let cut = open_to_disk(&s, &[main, across]).unwrap();
+        check(&s, &cut, 1);
+        assert_eq!((cut.splits.len(), cut.warnings[0].code), (3, "cut_apart"));
+    }
+
+    #[test]
+    fn two_seams_from_end_to_end_make_two_pieces_of_one_disk() {
+        for mesh in Mesh::ALL {
+            let s = cylinder(40.0, 200.0, mesh);
+            let seam = |u: f64| vec![round(40.0, u, 200.0), round(40.0, u, 0.0)];
+            let cut = open_to_disk(&s, &[seam(0.0), seam(0.3)]).unwrap();
+            check(&s, &cut, 1);
+            assert_eq!((cut.seams.len(), cut.splits.len()), (1, 1), "{mesh:?}");
+            assert_eq!(cut.warnings[0].code, "cut_apart");
+            let chain = &cut.splits[0];
+            assert!((length(&cut.disk, chain) / 200.0 - 1.0).abs() < 1e-3);
+            // Inside the disk but for its ends.
+            for v in &chain[1..chain.len() - 1] {
+                assert!(!cut.disk.is_boundary_vertex(*v));
+            }
+            // Vertices of the surface keep their place in the list; near a seam some are moved onto it.
+            let near = |p: DVec3| {
+                let turn = p.y.atan2(p.x) / TAU;
+                [0.0, 0.3]
+                    .into_iter()
+                    .any(|u| (turn - u).rem_euclid(1.0).min((u - turn).rem_euclid(1.0)) < 0.04)
+            };
+            for v in s.vertex_ids().filter(|&v| !near(s.point(v))) {
+                assert_eq!(s.point(v), cut.disk.point(v), "{mesh:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_ring_and_a_seam_along_make_an_upper_and_a_lower_piece() {
+        let s = cylinder(40.0, 200.0, Mesh::Random(5));
+        let along = vec![round(40.0, 0.0, 200.0), round(40.0, 0.0, 0.0)];
+        let ring: Vec<DVec3> = (0..=8).map(|k| round(40.0, f64::from(k) / 8.0, 110.0)).collect();
+        let cut = open_to_disk(&s, &[along, ring]).unwrap();
+        check(&s, &cut, 1);
+        assert_eq!(cut.splits.len(), 1);
+        let chain = &cut.splits[0];
+        let long = length(&cut.disk, chain);
+        assert!((long / (TAU * 40.0) - 1.0).abs() < 0.02, "{long}");
     }
 
     #[test]
@@ -421,9 +472,6 @@ mod tests {
         let darts = |z: f64, w: f64| vec![round(40.0, 0.0, z), round(40.0, 0.0, w)];
         let apart = text(&s, &[darts(200.0, 150.0), darts(0.0, 50.0)]);
         assert!(apart.contains("do not meet"), "{apart}");
-        let two =
-            text(&s, &[darts(200.0, 0.0), vec![round(40.0, 0.3, 200.0), round(40.0, 0.3, 0.0)]]);
-        assert!(two.contains("split the surface into 2 pieces; the smallest"), "{two}");
         let (p, t) = (s.points(), s.triangles());
         let n = p.len();
         let twice = p.iter().copied().chain(p.iter().map(|p| p + DVec3::X * 500.0)).collect();

@@ -9,6 +9,7 @@ mod cutter;
 mod error;
 mod markers;
 mod path;
+mod pieces;
 mod region;
 mod selection;
 mod sewing;

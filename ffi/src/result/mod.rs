@@ -16,6 +16,7 @@ pub use texts::{ResultText, wovenfit_result_text};
 
 use crate::check::{element, note, place, warning};
 use crate::failure::Error;
+use crate::formats::Patterns;
 use crate::guard::{Out, borrow, free, guard};
 use crate::prepared::{Prepared, Ready};
 use crate::status::Status;
@@ -29,15 +30,23 @@ pub struct FitResult(pub(crate) Arc<Computed>);
 pub(crate) struct Computed {
     pub(crate) ready: Arc<Ready>,
     pub(crate) flattening: Flattening,
-    wishes: Wishes,
+    pub(crate) wishes: Wishes,
     /// Asked for twice, for the size and for the contents, and made once.
     texts: Texts,
+    pub(crate) patterns: Patterns,
     ways: OnceLock<Ways>,
 }
 
 impl Computed {
     pub(crate) fn new(ready: Arc<Ready>, flattening: Flattening, wishes: Wishes) -> Self {
-        Self { ready, flattening, wishes, texts: Texts::default(), ways: OnceLock::new() }
+        Self {
+            ready,
+            flattening,
+            wishes,
+            texts: Texts::default(),
+            patterns: Patterns::default(),
+            ways: OnceLock::new(),
+        }
     }
 }
 

@@ -41,6 +41,8 @@ pub fn command() -> Command {
                 .default_value("wovenfit-demo")
                 .value_parser(value_parser!(PathBuf)),
         )
+        .arg(flatten::format_flag())
+        .arg(flatten::units_flag())
         .arg(flatten::quiet_flag())
 }
 
@@ -68,9 +70,12 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
         out.display()
     );
     let mut files = vec![limb, wish];
-    files.extend(flatten::files(&flattening, &design));
+    let (formats, unit) = flatten::wanted(matches);
+    let (results, notes) = flatten::files(&flattening, &design, &formats, unit);
+    files.extend(results);
     output::write_together(out, &files)?;
     flatten::warn(&flattening.report);
+    flatten::tell_notes(&notes);
     if !quiet {
         output::say(&pressure_table(&flattening.report));
         output::say(&flatten::places(out, &files));

@@ -5,15 +5,17 @@ use std::process::ExitCode;
 use std::thread;
 use std::time::Instant;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Arg, ArgAction, ArgMatches, Command, value_parser};
 use serde::Serialize;
 use wovenfit_core::design::Design;
 use wovenfit_core::export::json_text;
 use wovenfit_core::parameters::Parameters;
 use wovenfit_core::report::{PressureReport, Report, pressure_table};
+use wovenfit_core::sheet::SheetUnit;
 use wovenfit_core::surface::RawMesh;
 use wovenfit_core::warning::Warning;
-use wovenfit_core::{Flattening, ResultFile, flatten};
+use wovenfit_core::{Flattening, PatternFormat, ResultFile, flatten};
 
 use crate::clock::{Clock, StageTimes, peak_mib};
 use crate::exit::Failure;
@@ -57,6 +59,7 @@ pub fn command() -> Command {
              Writes into the folder:\n\
              \x20 report.html   the report as a page: open it in a browser, or print it\n\
              \x20 pattern.svg   the pattern at true size: print it at 100 % and cut\n\
+             \x20               (--format pdf-a4,dxf-astm,… writes it as other formats)\n\
              \x20 report.json   every figure: pressures wanted and computed, girths, warnings\n\
              \x20 worn.obj      the cut surface, with the pattern as texture coordinates in mm\n\
              \x20 flat.obj      the flat pattern as a mesh, in mm\n\n\
@@ -92,8 +95,53 @@ pub fn command() -> Command {
                 .help("Print a summary as JSON instead of the table, for programs")
                 .action(ArgAction::SetTrue),
         )
+        .arg(format_flag())
+        .arg(units_flag())
         .arg(quiet_flag());
     flags::add(command, |_| true)
+}
+
+/// The flag `--format`.
+pub fn format_flag() -> Arg {
+    let list: String = PatternFormat::ALL
+        .iter()
+        .map(|format| {
+            format!("\n  {:<10} {}: {}", format.name(), format.file_name(), format.summary())
+        })
+        .collect();
+    let usual: Vec<&str> = PatternFormat::USUAL.iter().map(|format| format.name()).collect();
+    Arg::new("format")
+        .long("format")
+        .value_name("FORMAT,…")
+        .help("Formats of the pattern, for example svg,pdf-a4,dxf-astm")
+        .long_help(format!("Formats of the pattern, one or more, with commas between them:{list}"))
+        .value_delimiter(',')
+        .action(ArgAction::Append)
+        .hide_possible_values(true)
+        .default_value(usual.join(","))
+        .value_parser(PossibleValuesParser::new(PatternFormat::ALL.map(PatternFormat::name)))
+}
+
+/// The flag `--pattern-units`.
+pub fn units_flag() -> Arg {
+    Arg::new("pattern-units")
+        .long("pattern-units")
+        .value_name("mm|in")
+        .help("Unit of the pattern's files: of numbers in SVG and DXF, of words in all")
+        .default_value("mm")
+        .hide_possible_values(true)
+        .value_parser(PossibleValuesParser::new(["mm", "in"]))
+}
+
+/// How the pattern is wanted: formats, each once in the order of the list, and their unit.
+pub fn wanted(matches: &ArgMatches) -> (Vec<PatternFormat>, SheetUnit) {
+    let named: Vec<&String> = matches.get_many("format").into_iter().flatten().collect();
+    let formats = PatternFormat::ALL
+        .into_iter()
+        .filter(|format| named.iter().any(|name| *name == format.name()))
+        .collect();
+    let unit = matches.get_one::<String>("pattern-units").and_then(|name| SheetUnit::named(name));
+    (formats, unit.unwrap_or_default())
 }
 
 /// The flag `--quiet`.
@@ -123,7 +171,8 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     let read = start.elapsed();
     let (flattening, stages) = fit(&mesh, &design, &parameters, quiet)?;
     let fitted = start.elapsed();
-    let files = files(&flattening, &design);
+    let (formats, unit) = wanted(matches);
+    let (files, notes) = files(&flattening, &design, &formats, unit);
     output::write_together(out, &files)?;
     let total = start.elapsed();
 
@@ -135,6 +184,7 @@ pub fn run(matches: &ArgMatches) -> Result<ExitCode, Failure> {
     };
     let report = &flattening.report;
     warn(report);
+    tell_notes(&notes);
     if json {
         let summary = Summary {
             out: out.display().to_string(),
@@ -171,16 +221,38 @@ pub fn fit(
     result.map(|flattening| (flattening, stages)).map_err(|error| Failure::of(&error))
 }
 
-/// The files of a pattern.
-pub fn files(flattening: &Flattening, design: &Design) -> Vec<Named> {
+/// The files of a result with its pattern in these formats, and what the formats could not hold.
+pub fn files(
+    flattening: &Flattening,
+    design: &Design,
+    formats: &[PatternFormat],
+    unit: SheetUnit,
+) -> (Vec<Named>, Vec<String>) {
     let text =
         |file: ResultFile| (file.name().to_owned(), flattening.file(file, design).into_bytes());
+    let pattern = |format: PatternFormat| {
+        let file = flattening.pattern(format, unit, design);
+        ((format.file_name().to_owned(), file.bytes), file.notes)
+    };
     // The meshes while the page's pictures are drawn.
     thread::scope(|scope| {
-        let tasks = ResultFile::ALL.map(|file| scope.spawn(move || text(file)));
-        tasks.map(|task| task.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)))
+        let others = ResultFile::ALL.into_iter().filter(|file| *file != ResultFile::PatternSvg);
+        let others: Vec<_> = others.map(|file| scope.spawn(move || text(file))).collect();
+        let (mut files, notes): (Vec<Named>, Vec<Vec<String>>) =
+            formats.iter().copied().map(pattern).unzip();
+        let joined = others
+            .into_iter()
+            .map(|task| task.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic)));
+        files.extend(joined);
+        (files, notes.concat())
     })
-    .into()
+}
+
+/// What formats could not hold, on standard error.
+pub fn tell_notes(notes: &[String]) {
+    for note in notes {
+        output::tell(&format!("note: {note}\n"));
+    }
 }
 
 /// The warnings, on standard error: also for those who asked for quiet.

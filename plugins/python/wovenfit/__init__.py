@@ -38,6 +38,7 @@ from .errors import (
     WovenfitError,
 )
 from .fabrics import FABRICS
+from .formats import Format, pattern_formats
 from .given import polygon_corners, torn_edges
 from .job import Job, Prepared, Progress
 from .library import version
@@ -61,6 +62,7 @@ __all__ = [
     "DesignError",
     "Figures",
     "FitError",
+    "Format",
     "InternalError",
     "InvalidArgument",
     "Job",
@@ -97,6 +99,7 @@ __all__ = [
     "design_schema",
     "flatten",
     "parameter_table",
+    "pattern_formats",
     "polygon_corners",
     "torn_edges",
     "version",

@@ -67,6 +67,14 @@ class NoteText(enum.IntEnum):
     MESSAGE = 2
 
 
+class FormatText(enum.IntEnum):
+    """A text about a format of the pattern."""
+
+    NAME = 1
+    FILE_NAME = 2
+    SUMMARY = 3
+
+
 class ParameterKind(enum.IntEnum):
     """What a parameter may be."""
 

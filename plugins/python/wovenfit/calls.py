@@ -72,6 +72,12 @@ def _array(kind: Any, dtype: npt.DTypeLike, name: str, arguments: tuple[object, 
     return values
 
 
+def data(name: str, *arguments: object) -> bytes:
+    """Calls a function that gives bytes."""
+    values: npt.NDArray[np.uint8] = _array(ctypes.c_uint8, np.uint8, name, arguments)
+    return values.tobytes()
+
+
 def doubles(name: str, *arguments: object) -> npt.NDArray[np.float64]:
     """Calls a function that gives 64-bit numbers."""
     values: npt.NDArray[np.float64] = _array(ctypes.c_double, np.float64, name, arguments)

@@ -14,12 +14,14 @@ import numpy as np
 from . import calls
 from .abi import NoteText, ResultArray, ResultFile, ResultIndexArray
 from .files import write_together
+from .formats import pattern_formats
 from .handle import Handle
 from .notes import Note, Place, read_note, read_text
 from .signatures import ResultPressure, ResultSummary
 
 if TYPE_CHECKING:
     import os
+    from collections.abc import Iterable
     from pathlib import Path
 
     import numpy.typing as npt
@@ -36,7 +38,7 @@ FILES = {
     "worn.obj": ResultFile.WORN_OBJ,
     "flat.obj": ResultFile.FLAT_OBJ,
 }
-"""What `Pattern.write` and the command line write."""
+"""What `Pattern.write` and the command line write; `pattern_formats` are more."""
 
 
 @dataclass(frozen=True)
@@ -308,15 +310,52 @@ class Pattern(Handle):
         """A file as the command line writes it, byte for byte; `name` is one of `FILES`."""
         return self._text(FILES[name])
 
-    def write(self, folder: str | os.PathLike[str]) -> tuple[Path, ...]:
+    def export(self, format: str, unit: str = "mm") -> bytes:
+        """The pattern as a file's bytes, with allowances, notches and marks of its design.
+
+        Args:
+            format: the name of one of `pattern_formats`, for example "dxf-astm".
+            unit: "mm" or "in": of the numbers in SVG and DXF, of the words in all.
+
+        Raises:
+            InvalidArgument: if there is no such format or unit.
+        """
+        names = calls.c_text(format, "format"), calls.c_text(unit, "unit")
+        with self._lent() as address:
+            return calls.data("wovenfit_result_pattern", address, *names)
+
+    def export_notes(self, format: str, unit: str = "mm") -> list[str]:
+        """What a format cannot hold, as letters of a name, and what it says instead."""
+        names = calls.c_text(format, "format"), calls.c_text(unit, "unit")
+        with self._lent() as address:
+            text = calls.text("wovenfit_result_pattern_notes", address, *names)
+        return text.decode().splitlines()
+
+    def write(
+        self,
+        folder: str | os.PathLike[str],
+        formats: Iterable[str] = ("svg",),
+        unit: str = "mm",
+    ) -> tuple[Path, ...]:
         """Writes the files of `wovenfit flatten` into a folder, all of them or none.
 
         The folder is made if there is none. What else lies in it stays.
 
+        Args:
+            folder: where to.
+            formats: those of the pattern, names of `pattern_formats`.
+            unit: of the pattern's files, "mm" or "in".
+
         Raises:
+            InvalidArgument: if there is no such format or unit.
             OSError: if they cannot be written; what was there before is then put back.
         """
-        return write_together(folder, {name: self.file(name) for name in FILES})
+        names = {row.name: row.file_name for row in pattern_formats()}
+        files = {name: self.file(name) for name in FILES if name != "pattern.svg"}
+        for format in formats:
+            contents = self.export(format, unit)
+            files[names[format]] = contents
+        return write_together(folder, files)
 
     def prepared(self) -> Prepared:
         """The limb that is cut open, to solve again on."""

@@ -15,6 +15,7 @@ from ctypes import (
     c_float,
     c_int32,
     c_size_t,
+    c_uint8,
     c_uint32,
     c_void_p,
 )
@@ -88,6 +89,7 @@ _error = POINTER(c_void_p)
 _doubles = POINTER(c_double)
 _floats = POINTER(c_float)
 _indices = POINTER(c_uint32)
+_bytes = POINTER(c_uint8)
 _count = POINTER(c_size_t)
 # buffer, capacity, needed: a text to the caller.
 _text_out = (POINTER(c_char), c_size_t, _count)
@@ -202,6 +204,17 @@ SIGNATURES: dict[str, tuple[object, tuple[object, ...]]] = {
     "wovenfit_result_indices": (_status, (_object, c_int32, _indices, c_size_t, _count, _error)),
     "wovenfit_result_text": (_status, (_object, c_int32, *_text_out, _error)),
     "wovenfit_result_free": (None, (_object,)),
+    # Formats of the pattern.
+    "wovenfit_format_count": (c_size_t, ()),
+    "wovenfit_format_describe": (_status, (c_size_t, c_int32, *_text_out, _error)),
+    "wovenfit_result_pattern": (
+        _status,
+        (_object, c_char_p, c_char_p, _bytes, c_size_t, _count, _error),
+    ),
+    "wovenfit_result_pattern_notes": (
+        _status,
+        (_object, c_char_p, c_char_p, *_text_out, _error),
+    ),
 }
 """What each function returns (``None`` for void) and takes."""
 

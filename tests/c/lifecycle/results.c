@@ -41,6 +41,56 @@ static char *text(const wovenfit_result *result, int32_t what) {
     return words;
 }
 
+/* The pattern in every format, in both units. */
+static void formats(const wovenfit_result *result) {
+    wovenfit_error *error = NULL;
+    char name[100], words[400];
+    size_t needed = 0, count = 0;
+    CHECK(wovenfit_format_count() >= 9);
+    for (size_t i = 0; i < wovenfit_format_count(); i++) {
+        DONE(wovenfit_format_describe(i, WOVENFIT_FORMAT_TEXT_NAME, name, sizeof name, &needed, &error));
+        CHECK(strlen(name) + 1 == needed);
+        DONE(wovenfit_format_describe(i, WOVENFIT_FORMAT_TEXT_FILE_NAME, words, sizeof words, &needed,
+                                      &error));
+        CHECK(strncmp(words, "pattern", 7) == 0 && strchr(words, '.') != NULL);
+        DONE(wovenfit_format_describe(i, WOVENFIT_FORMAT_TEXT_SUMMARY, words, sizeof words, &needed,
+                                      &error));
+        CHECK(needed > 20);
+        for (int k = 0; k < 2; k++) {
+            const char *unit = k ? "in" : "mm";
+            DONE(wovenfit_result_pattern(result, name, unit, NULL, 0, &needed, &error));
+            CHECK(needed > 500);
+            uint8_t *bytes = malloc(needed);
+            CHECK(bytes != NULL);
+            REFUSED(wovenfit_result_pattern(result, name, unit, bytes, needed - 1, &count, &error),
+                    WOVENFIT_STATUS_BUFFER_TOO_SMALL, "the buffer holds");
+            CHECK(count == needed);
+            DONE(wovenfit_result_pattern(result, name, unit, bytes, needed, &count, &error));
+            CHECK(count == needed);
+            /* All but the PNG are text; that of a PDF and a PNG begins with its name. */
+            if (strncmp(name, "pdf", 3) == 0) CHECK(memcmp(bytes, "%PDF-", 5) == 0);
+            if (strcmp(name, "png") == 0) CHECK(memcmp(bytes, "\x89PNG", 4) == 0);
+            if (strncmp(name, "dxf", 3) == 0) CHECK(memcmp(bytes, "  0\nSECTION", 11) == 0);
+            free(bytes);
+            DONE(wovenfit_result_pattern_notes(result, name, unit, words, sizeof words, &needed, &error));
+        }
+    }
+    REFUSED(wovenfit_format_describe(9999, 1, words, sizeof words, &needed, &error),
+            WOVENFIT_STATUS_OUT_OF_RANGE, "format 9999");
+    REFUSED(wovenfit_format_describe(0, 0, words, sizeof words, &needed, &error),
+            WOVENFIT_STATUS_INVALID_ARGUMENT, "`what` is 0");
+    REFUSED(wovenfit_result_pattern(result, "docx", "mm", NULL, 0, &needed, &error),
+            WOVENFIT_STATUS_INVALID_ARGUMENT, "dxf-astm");
+    REFUSED(wovenfit_result_pattern(result, "dxf", "cm", NULL, 0, &needed, &error),
+            WOVENFIT_STATUS_INVALID_ARGUMENT, "\"mm\" or \"in\"");
+    REFUSED(wovenfit_result_pattern(NULL, "dxf", "mm", NULL, 0, &needed, &error),
+            WOVENFIT_STATUS_NULL_ARGUMENT, "`result`");
+    REFUSED(wovenfit_result_pattern(result, NULL, "mm", NULL, 0, &needed, &error),
+            WOVENFIT_STATUS_NULL_ARGUMENT, "`format`");
+    REFUSED(wovenfit_result_pattern_notes(result, "dxf", NULL, words, sizeof words, &needed, &error),
+            WOVENFIT_STATUS_NULL_ARGUMENT, "`unit`");
+}
+
 void results(const wovenfit_result *result) {
     wovenfit_error *error = NULL;
     wovenfit_result_summary summary;
@@ -147,6 +197,7 @@ void results(const wovenfit_result *result) {
         CHECK(strstr(words, texts[i].words) != NULL);
         free(words);
     }
+    formats(result);
     REFUSED(wovenfit_result_text(result, 0, NULL, 0, &needed, &error),
             WOVENFIT_STATUS_INVALID_ARGUMENT, "`what` is 0");
     REFUSED(wovenfit_result_doubles(result, -1, NULL, 0, &needed, &error),

@@ -38,16 +38,10 @@ fn figure(mm: f64) -> String {
 fn remedy(likely: Option<LengthUnit>) -> String {
     match likely {
         Some(unit) => {
-            format!(
-                "the coordinates are probably in {0}: set the unit (`units`) to {0}",
-                unit.symbol()
-            )
+            format!("the coordinates are probably in {0}; set `units` to `{0}`", unit.symbol())
         }
-        None => {
-            "no unit makes it one; if the surface is right, set its unit (`units`) all the same, \
-                 for example to mm"
-                .to_owned()
-        }
+        None => "no unit makes it one; if the surface is right, set `units` to its unit, for example `mm`"
+            .to_owned(),
     }
 }
 
@@ -104,8 +98,8 @@ mod tests {
         let message = read(1e-3, Millimetre).unwrap_err().to_string();
         assert_eq!(
             message,
-            "girths of 0.25 mm are not a limb's (60 to 1500 mm): the coordinates are probably in m: set \
-             the unit (`units`) to m"
+            "girths of 0.25 mm are not a limb's (60 to 1500 mm): the coordinates are probably in m; \
+             set `units` to `m`"
         );
         // Millimetres read as metres.
         assert_eq!(read(1000.0, Metre).unwrap_err().likely, Some(Millimetre));

@@ -96,6 +96,7 @@ fn input(outcome: &Outcome) -> PageInput<'_> {
         warp_strain: &flattening.field.warp_strain,
         pressure_kpa: None,
         limit_kpa: Limits::WARN_KPA,
+        workshop: None,
     }
 }
 

@@ -79,9 +79,10 @@ def first_clause(text: str) -> str:
 
 def in_host_words(text: str) -> str:
     """The library's text, with the panels' names where it names options and keys of files."""
-    text = re.sub(r"its unit with `--units`", "its unit under Units in the panel Surface", text)
-    text = re.sub(r"say `--units ([a-z]+)`", r"set Units to \1 in the panel Surface", text)
-    text = re.sub(r"`--units ([a-z]+)`", r"Units \1 in the panel Surface", text)
+    text = re.sub(r"set `units` to its unit, for example `([a-z]+)`", r"set Units to \1", text)
+    text = re.sub(
+        r"set (?:`units`|Units) to `?([a-z]+)`?", r"set Units to \1 in the panel Surface", text
+    )
     text = re.sub(
         r"`?pressures\[(\d+)\](\.kpa)?`?", lambda match: f"pressure {int(match[1]) + 1}", text
     )

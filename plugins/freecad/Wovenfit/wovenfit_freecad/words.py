@@ -10,12 +10,12 @@ from . import places, properties
 _FIXED = (
     (r'write "mmhg": ([\d.]+)', r"write \1 Torr"),
     (
-        r"the file is probably in (\w+); say `--units \w+`",
+        r"the coordinates are probably in (\w+); set `units` to `\w+`",
         r"the scan is probably in \1, and FreeCAD took its numbers for mm: scale the mesh to mm "
         r"(Meshes > Scale)",
     ),
     (
-        r"say its unit with `--units`, for example `--units mm`",
+        r"set `units` to its unit, for example `\w+`",
         r"scale the mesh to mm (Meshes > Scale)",
     ),
     (r"\bregion_faces\b", "RegionFacets"),
