@@ -3,7 +3,7 @@
 /// The nearest words of 7-bit characters: accents go, ligatures are spelt out, `?` stands for the rest.
 #[must_use]
 pub(crate) fn ascii(text: &str) -> String {
-    text.chars().map(|c| ascii_of(c)).collect()
+    text.chars().map(ascii_of).collect()
 }
 
 fn ascii_of(c: char) -> String {
