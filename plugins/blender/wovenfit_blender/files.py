@@ -9,7 +9,7 @@ from bpy_extras.io_utils import ExportHelper
 
 from . import job
 from .properties import limb_of
-from .wovenfit import FILES
+from .wovenfit import FILES, pattern_formats
 
 _PAGE = "report.html"
 
@@ -59,7 +59,25 @@ def _files(self, context):
     return _FILE_ITEMS
 
 
-_FILE_ITEMS = [(name, name, f"Write {name}, as the command line does") for name in FILES]
+_FORMATS = {row.file_name: row for row in pattern_formats()}
+_NAMES = [*(name for name in FILES if name not in _FORMATS), *_FORMATS]
+
+
+def _what(name):
+    row = _FORMATS.get(name)
+    return f"The pattern: {row.summary}" if row else f"Write {name}, as the command line does"
+
+
+_FILE_ITEMS = [(name, name, _what(name)) for name in _NAMES]
+
+
+def _unit():
+    """The property of both operators that write a pattern."""
+    return bpy.props.EnumProperty(
+        name="Unit",
+        description="Of the pattern's numbers in SVG and DXF, and of the lengths written on it",
+        items=[("mm", "Millimetres", "Lengths in mm"), ("in", "Inches", "Lengths in inches")],
+    )
 
 
 class WOVENFIT_OT_export_file(bpy.types.Operator, ExportHelper):
@@ -71,6 +89,7 @@ class WOVENFIT_OT_export_file(bpy.types.Operator, ExportHelper):
     filename_ext = ""
     check_extension = None
     file: bpy.props.EnumProperty(name="File", description="Which file", items=_files)
+    unit: _unit()
 
     @classmethod
     def poll(cls, context):
@@ -88,7 +107,7 @@ class WOVENFIT_OT_export_file(bpy.types.Operator, ExportHelper):
         path, ending = Path(self.filepath), Path(self.file).suffix
         if path.suffix == ending or not path.name:
             return False
-        same_kind = {Path(name).suffix for name in FILES}
+        same_kind = {Path(name).suffix for name in _NAMES}
         bare = path.with_suffix("") if path.suffix in same_kind else path
         self.filepath = str(bare) + ending
         return True
@@ -96,22 +115,31 @@ class WOVENFIT_OT_export_file(bpy.types.Operator, ExportHelper):
     def execute(self, context):
         path = Path(bpy.path.abspath(self.filepath))
         try:
-            path.write_bytes(_pattern(context).file(self.file))
+            path.write_bytes(self._contents(_pattern(context)))
         except OSError as error:
             self.report({"ERROR"}, f"{path} cannot be written: {error.strerror}")
             return {"CANCELLED"}
         self.report({"INFO"}, f"Written: {path}")
         return {"FINISHED"}
 
+    def _contents(self, pattern):
+        row = _FORMATS.get(self.file)
+        if row is None:
+            return pattern.file(self.file)
+        for note in pattern.export_notes(row.name, self.unit):
+            self.report({"WARNING"}, note)
+        return pattern.export(row.name, self.unit)
+
 
 class WOVENFIT_OT_export_all(bpy.types.Operator):
-    """Write all files of the pattern into a folder: all of them or none"""
+    """Write all files of the pattern into a folder, in every format: all of them or none"""
 
     bl_idname = "wovenfit.export_all"
     bl_label = "Export All Files"
 
     directory: bpy.props.StringProperty(subtype="DIR_PATH")
     filter_folder: bpy.props.BoolProperty(default=True, options={"HIDDEN"})
+    unit: _unit()
 
     @classmethod
     def poll(cls, context):
@@ -126,7 +154,8 @@ class WOVENFIT_OT_export_all(bpy.types.Operator):
     def execute(self, context):
         folder = Path(bpy.path.abspath(self.directory))
         try:
-            written = _pattern(context).write(folder)
+            formats = [row.name for row in _FORMATS.values()]
+            written = _pattern(context).write(folder, formats=formats, unit=self.unit)
         except OSError as error:
             self.report({"ERROR"}, f"{folder} cannot be written into: {error.strerror}")
             return {"CANCELLED"}

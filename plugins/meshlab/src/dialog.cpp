@@ -9,6 +9,7 @@ namespace {
 const std::array<wovenfit::Field, 3> FIELDS = {wovenfit::Field::WarpStrain, wovenfit::Field::WeftStrain,
                                                wovenfit::Field::Pressure};
 const QStringList PRESSURE_UNITS = {"kPa", "mmHg"};
+const QStringList PATTERN_UNITS = {"mm", "in"};
 
 // "close_holes" as a label: "Close holes (mm)".
 QString label(QString name, const QString& unit) {
@@ -115,9 +116,17 @@ RichParameterList flatten_dialog() {
                              "Show on the pattern",
                              "What the vertex quality and the colours of the new layer are; red is most."));
     dialog.addParam(RichString(names::folder, "", "Folder for the files",
-                               "Where the report (report.html, report.json), the pattern at true size "
-                               "(pattern.svg) and the meshes (worn.obj, flat.obj) are written; made if there "
-                               "is none. Empty: no files."));
+                               "Where the report (report.html, report.json), the pattern at true size and the "
+                               "meshes (worn.obj, flat.obj) are written; made if there is none. Empty: no "
+                               "files."));
+    QString formats = "As what the pattern is written into the folder, with commas between them: ";
+    for (const wovenfit::Format& format : wovenfit::pattern_formats()) {
+        formats += QString("%1 (%2), ").arg(qt(format.name), qt(format.summary));
+    }
+    formats.chop(2);
+    dialog.addParam(RichString(names::formats, "svg", "Formats of the pattern", formats.toHtmlEscaped() + "."));
+    dialog.addParam(RichEnum(names::pattern_unit, 0, PATTERN_UNITS, "Unit of the pattern's files",
+                             "Of the numbers in SVG and DXF, and of the lengths that stand on the pattern."));
     for (const wovenfit::Wish& wish : wovenfit::fabric_wishes()) {
         const QString tip = qt(wish.text) + " Empty: as the design file has it, else " +
                             qt(wish.default_value) + ".";
@@ -147,6 +156,11 @@ void set_fabric(wovenfit::Input& input, const RichParameterList& values) {
             input.set_wish(wish.place, rs(value));
         }
     }
+}
+
+void set_formats(wovenfit::Input& input, const RichParameterList& values) {
+    input.set_formats(rs(values.getString(names::formats)),
+                      rs(PATTERN_UNITS.value(values.getEnum(names::pattern_unit))));
 }
 
 QString pressure_unit(const RichParameterList& values) {

@@ -15,6 +15,8 @@ inline const char* const pressure_unit = "pressure_unit";
 inline const char* const selected_only = "selected_faces_only";
 inline const char* const field = "field";
 inline const char* const folder = "output_folder";
+inline const char* const formats = "pattern_formats";
+inline const char* const pattern_unit = "pattern_unit";
 } // namespace names
 
 // The dialog of "Flatten to Pattern".
@@ -29,6 +31,9 @@ void set_parameters(wovenfit::Input& input, const rust::Vec<wovenfit::Parameter>
 
 // The fabric's values that were filled in; the others stay as the design has them.
 void set_fabric(wovenfit::Input& input, const RichParameterList& values);
+
+// As what the pattern is written, and in which unit.
+void set_formats(wovenfit::Input& input, const RichParameterList& values);
 
 // The unit of pressure that was chosen: kPa or mmHg.
 QString pressure_unit(const RichParameterList& values);

@@ -35,7 +35,7 @@ void refuse_bad_folder(const QString& folder) {
     }
 }
 
-void write_files(const QString& folder, const rust::Vec<wovenfit::NamedText>& files) {
+void write_files(const QString& folder, const rust::Vec<wovenfit::NamedFile>& files) {
     const auto refuse = [&](const QString& name, const QString& why) {
         throw Refusal(QString("%1 cannot be written into %2: %3").arg(name, folder, why));
     };
@@ -43,11 +43,11 @@ void write_files(const QString& folder, const rust::Vec<wovenfit::NamedText>& fi
         refuse("the results", "the folder cannot be made");
     }
     std::vector<std::unique_ptr<QSaveFile>> written;
-    for (const wovenfit::NamedText& file : files) {
+    for (const wovenfit::NamedFile& file : files) {
         const QString name = qt(file.name);
         auto save = std::make_unique<QSaveFile>(QDir(folder).filePath(name));
-        const auto size = static_cast<qint64>(file.text.size());
-        if (!save->open(QIODevice::WriteOnly) || save->write(file.text.data(), size) != size) {
+        const auto size = static_cast<qint64>(file.bytes.size());
+        if (!save->open(QIODevice::WriteOnly) || save->write(reinterpret_cast<const char*>(file.bytes.data()), size) != size) {
             refuse(name, save->errorString());
         }
         written.push_back(std::move(save));

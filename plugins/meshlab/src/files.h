@@ -14,4 +14,4 @@ void refuse_bad_folder(const QString& folder);
 
 // Writes all files into a folder, which is made if there is none. Each appears whole or not at all, and
 // none of them before all are written.
-void write_files(const QString& folder, const rust::Vec<wovenfit::NamedText>& files);
+void write_files(const QString& folder, const rust::Vec<wovenfit::NamedFile>& files);

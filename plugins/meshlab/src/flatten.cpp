@@ -55,6 +55,7 @@ rust::Box<wovenfit::Input> wishes(const RichParameterList& values, const MeshMod
         }
     }
     set_fabric(*input, values);
+    set_formats(*input, values);
     input->set_mesh({given.points.data(), given.points.size()},
                     {given.triangles.data(), given.triangles.size()});
     add_picked(*input, values, say);
@@ -170,7 +171,13 @@ Results flatten(const RichParameterList& values, MeshDocument& document, vcg::Ca
     const size_t warnings = pattern->warnings().size();
     unchanged.or_refuse();
     if (!folder.isEmpty()) {
-        write_files(folder, pattern->files());
+        const auto files = pattern->files();
+        write_files(folder, files);
+        for (const wovenfit::NamedFile& file : files) {
+            for (const rust::String& note : file.notes) {
+                say("note: " + qt(note));
+            }
+        }
     }
 
     // Nothing below refuses.

@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import stat
 import subprocess
 import webbrowser
@@ -57,16 +58,33 @@ def test_the_files_are_the_command_lines_byte_for_byte():
     subprocess.run(
         [
             *(PROGRAM, "flatten", theirs / "limb.ply", "--design", theirs / "design.json"),
-            *("--out", theirs, "--quiet"),
+            *("--out", theirs, "--quiet", "--format", ",".join(_formats())),
         ],
         check=True,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
     )
-    names = list(scene.addon("wovenfit").FILES)
-    assert len(names) >= 5
-    for name in names:
-        assert (ours / name).read_bytes() == (theirs / name).read_bytes(), f"{name} differs"
+    names = {path.name for path in theirs.iterdir()} - {"limb.ply", "design.json"}
+    assert len(names) >= 5 + len(_formats()) - 1
+    assert {path.name for path in ours.iterdir()} == names
+    # The last page of a PDF says the hash of the design's file, which there is none of in Blender.
+    for name in sorted(name for name in names if not name.endswith(".pdf")):
+        of_both = [_without_hash(path / name) for path in (ours, theirs)]
+        assert of_both[0] == of_both[1], f"{name} differs"
+
+
+def _formats():
+    return [row.name for row in scene.addon("wovenfit").pattern_formats()]
+
+
+def _without_hash(path):
+    """A file's bytes; of the report without the row that says the design's hash."""
+    if path.name != "report.html":
+        return path.read_bytes()
+    text = path.read_text(encoding="utf-8")
+    bare, count = re.subn(r"SHA-256 of the design( file)?|\b[0-9a-f]{64}\b", "", text)
+    assert count == 2, count
+    return bare
 
 
 def test_one_file_is_written_where_it_is_asked_for():
@@ -78,6 +96,12 @@ def test_one_file_is_written_where_it_is_asked_for():
         done = bpy.ops.wovenfit.export_file(filepath=str(path), file=name)
         assert done == {"FINISHED"}
         assert path.read_bytes() == pattern.file(name)
+    for row in scene.addon("wovenfit").pattern_formats():
+        for unit in ("mm", "in"):
+            path = into / f"{unit}-{row.file_name}"
+            wish = {"filepath": str(path), "file": row.file_name, "unit": unit}
+            assert bpy.ops.wovenfit.export_file(**wish) == {"FINISHED"}
+            assert path.read_bytes() == pattern.export(row.name, unit)
     nowhere = into / "no such folder" / "pattern.svg"
     scene.refused(
         lambda: bpy.ops.wovenfit.export_file(filepath=str(nowhere), file="pattern.svg"),

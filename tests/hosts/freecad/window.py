@@ -15,6 +15,7 @@ import limbs
 import Mesh
 import numpy as np
 import wovenfit
+import wovenfit_freecad as tools
 from hands import (
     answering,
     click,
@@ -348,7 +349,7 @@ def the_report_and_the_files():
         FreeCADGui.runCommand("Wovenfit_Export")
     finally:
         QtGui.QFileDialog.getExistingDirectory = asked
-    assert {path.name for path in folder.iterdir()} == set(wovenfit.FILES)
+    assert {path.name for path in folder.iterdir()} == set(tools.file_names())
     # An invalid brace has no files: the reason is shown.
     brace.Pressure1 = "20 kPa"
     document.recompute()

@@ -115,6 +115,8 @@ def flatten_filter(**values: object) -> str:
         ("selected_faces_only", "RichBool", False),
         ("field", "RichEnum", 0),
         ("output_folder", "RichString", ""),
+        ("pattern_formats", "RichString", "svg"),
+        ("pattern_unit", "RichEnum", 0),
         *((f"fabric_{name}", "RichString", "") for name in FABRIC),
     ]
     rows = [(name, kind, values.pop(name, value)) for name, kind, value in own]

@@ -117,6 +117,25 @@ def test_a_design_gives_the_command_lines_files_and_the_pattern_as_a_layer(
     assert f"width_mm = {pattern.figures.width_mm:.4f}"[:15] in said
 
 
+def test_the_pattern_is_written_in_the_formats_and_the_unit_that_are_chosen(
+    meshlab: Path, limb: Limb, ply: Path, tmp_path: Path
+) -> None:
+    names = [row.name for row in wovenfit.pattern_formats()]
+    chosen = {"pattern_formats": ", ".join(names), "pattern_unit": 1}
+    out = tmp_path / "meshlab"
+    wish = {"design_file": limb.design_file, "output_folder": out}
+    succeeded(run(meshlab, tmp_path, ply, flatten_filter(**wish, **chosen)))
+    flags = ("--format", ",".join(names), "--pattern-units", "in")
+    expected = command_line(tmp_path, ply, limb.design_file, *flags)
+    assert len(list(expected.iterdir())) == len(names) + 4
+    for file in expected.iterdir():
+        assert (out / file.name).read_bytes() == file.read_bytes(), file.name
+    wish["output_folder"] = tmp_path / "none"
+    said = failed(run(meshlab, tmp_path, ply, flatten_filter(**wish, pattern_formats="svg,dfx")))
+    assert "`dfx` is no format of the pattern: give some of svg, pdf" in said
+    assert not (tmp_path / "none").exists()
+
+
 def test_the_source_gets_texture_coordinates(
     meshlab: Path, limb: Limb, ply: Path, tmp_path: Path
 ) -> None:

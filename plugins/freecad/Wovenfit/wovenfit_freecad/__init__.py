@@ -29,7 +29,7 @@ from .edits import (
     remove_pressure,
     set_orientation,
 )
-from .files import export, file_names, write_report
+from .files import export, file_names, formats, write_report
 from .page import make_page
 
 __all__ = [
@@ -44,6 +44,7 @@ __all__ = [
     "design_of",
     "export",
     "file_names",
+    "formats",
     "make_page",
     "new_brace",
     "remove_pressure",

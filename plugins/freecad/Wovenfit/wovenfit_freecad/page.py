@@ -36,7 +36,8 @@ def make_page(pattern: Any) -> Any:
     if found is None:
         raise ValueError(
             f"{pattern.Label} is {box.XLength:.0f} mm by {box.YLength:.0f} mm: no sheet up to "
-            f"{list(SHEETS)[-1]} holds it at 1:1. Export it, and print pattern.svg in tiles"
+            f"{list(SHEETS)[-1]} holds it at 1:1. Export it, and print the "
+            "tiles of pattern-a4.pdf"
         )
     template, turned = found
     document = pattern.Document

@@ -13,7 +13,7 @@ pub struct Check(CheckReport);
 /// Checks a mesh as a job would take it. A mesh with defects is no failure: they are in the check.
 pub(crate) fn check_surface(input: &Input) -> Result<Box<Check>, Failure> {
     guarded_in_pool(|| {
-        let Input { parameters, design, raw } = input;
+        let Input { parameters, design, raw, .. } = input;
         Ok(Box::new(Check(check_for(raw, design, parameters))))
     })
 }

@@ -2,8 +2,10 @@
 
 use glam::DVec3;
 use serde_json::Value;
+use wovenfit_core::PatternFormat;
 use wovenfit_core::design::{Design, WantedPressure, condense, parse, schema};
 use wovenfit_core::parameters::Parameters;
+use wovenfit_core::sheet::SheetUnit;
 use wovenfit_core::surface::{RawMesh, on_grid};
 use wovenfit_core::units::{LengthUnit, kpa_from_mmhg};
 
@@ -15,6 +17,8 @@ pub struct Input {
     pub(crate) parameters: Parameters,
     pub(crate) design: Design,
     pub(crate) raw: RawMesh,
+    pub(crate) formats: Vec<PatternFormat>,
+    pub(crate) sheet_unit: SheetUnit,
 }
 
 /// Nothing yet: defaults, no wishes, no mesh.
@@ -23,6 +27,8 @@ pub(crate) fn new_input() -> Box<Input> {
         parameters: Parameters::default(),
         design: Design::default(),
         raw: RawMesh::default(),
+        formats: PatternFormat::USUAL.to_vec(),
+        sheet_unit: SheetUnit::default(),
     })
 }
 
@@ -58,6 +64,28 @@ impl Input {
                 Value::String(value.to_owned())
             };
             self.design.set(place, value).map_err(Failure::new)
+        })
+    }
+
+    /// Says in which formats the pattern is written, their names with commas between them, and in which
+    /// unit, `mm` or `in`.
+    pub(crate) fn set_formats(&mut self, names: &str, unit: &str) -> Result<(), Failure> {
+        guarded(|| {
+            let known = || PatternFormat::ALL.map(PatternFormat::name).join(", ");
+            let named = |name: &str| {
+                PatternFormat::named(name).ok_or_else(|| {
+                    Failure(format!(
+                        "`{name}` is no format of the pattern: give some of {}",
+                        known()
+                    ))
+                })
+            };
+            let names = names.split(',').map(str::trim).filter(|name| !name.is_empty());
+            self.formats = names.map(named).collect::<Result<_, _>>()?;
+            self.sheet_unit = SheetUnit::named(unit).ok_or_else(|| {
+                Failure(format!("`{unit}` is no unit of the pattern: give mm or in"))
+            })?;
+            Ok(())
         })
     }
 

@@ -82,9 +82,9 @@ pub(crate) fn start(input: Box<Input>) -> Result<Box<Job>, Failure> {
 }
 
 fn run(input: Input, watcher: &Shared) -> Result<Pattern, Failure> {
-    let Input { parameters, design, raw } = input;
+    let Input { parameters, design, raw, formats, sheet_unit } = input;
     let flattening = flatten(&raw, &design, &parameters, watcher).map_err(Failure::new)?;
-    Ok(Pattern { flattening, design, raw })
+    Ok(Pattern { flattening, design, raw, formats, sheet_unit })
 }
 
 impl Job {

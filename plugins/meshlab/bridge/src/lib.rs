@@ -21,7 +21,7 @@ use check::{Check, check_surface};
 use input::{Input, new_input};
 use job::{Job, start};
 use pattern::Pattern;
-use table::{check_parameters, fabric_wishes, parameters};
+use table::{check_parameters, fabric_wishes, parameters, pattern_formats};
 
 // What cxx writes: its unsafe code, and paths in full.
 #[allow(unsafe_code, unused_qualifications)]
@@ -98,11 +98,22 @@ mod ffi {
 
     /// A file of a result.
     #[derive(Debug)]
-    struct NamedText {
+    struct NamedFile {
         /// What the file is called.
         name: String,
         /// What stands in it.
-        text: String,
+        bytes: Vec<u8>,
+        /// What its format could not hold.
+        notes: Vec<String>,
+    }
+
+    /// A format of the pattern.
+    #[derive(Debug)]
+    struct Format {
+        /// Its short name.
+        name: String,
+        /// What it is for, in one line.
+        summary: String,
     }
 
     /// The figures of a result.
@@ -149,12 +160,14 @@ mod ffi {
         fn parameters() -> Vec<Parameter>;
         fn check_parameters() -> Vec<Parameter>;
         fn fabric_wishes() -> Vec<Wish>;
+        fn pattern_formats() -> Vec<Format>;
 
         type Input;
         fn new_input() -> Box<Input>;
         fn set_parameter(self: &mut Input, name: &str, value: &str) -> Result<()>;
         fn read_design(self: &mut Input, bytes: &[u8]) -> Result<()>;
         fn set_wish(self: &mut Input, place: &str, value: &str) -> Result<()>;
+        fn set_formats(self: &mut Input, names: &str, unit: &str) -> Result<()>;
         fn set_mesh(self: &mut Input, points: &[f64], triangles: &[u32]) -> Result<()>;
         fn add_pressure(self: &mut Input, at: [f64; 3], value: f64, unit: &str) -> Result<()>;
         fn paint(self: &mut Input, values: &[f64], scale: f64, unit: &str) -> Result<()>;
@@ -177,7 +190,7 @@ mod ffi {
         fn figures(self: &Pattern) -> Figures;
         fn table(self: &Pattern) -> String;
         fn warnings(self: &Pattern) -> Vec<String>;
-        fn files(self: &Pattern) -> Result<Vec<NamedText>>;
+        fn files(self: &Pattern) -> Result<Vec<NamedFile>>;
 
         type Check;
         fn check_surface(input: &Input) -> Result<Box<Check>>;

@@ -3,11 +3,12 @@
 use rayon::prelude::*;
 use wovenfit_core::design::Design;
 use wovenfit_core::report::pressure_table;
+use wovenfit_core::sheet::SheetUnit;
 use wovenfit_core::surface::RawMesh;
 use wovenfit_core::transfer::Transfer;
-use wovenfit_core::{Flattening, ResultFile};
+use wovenfit_core::{Flattening, PatternFormat, ResultFile};
 
-use crate::ffi::{Field, Figures, NamedText};
+use crate::ffi::{Field, Figures, NamedFile};
 use crate::guard::{Failure, guarded_in_pool};
 
 /// A flattened brace with what it was made from.
@@ -15,6 +16,8 @@ pub struct Pattern {
     pub(crate) flattening: Flattening,
     pub(crate) design: Design,
     pub(crate) raw: RawMesh,
+    pub(crate) formats: Vec<PatternFormat>,
+    pub(crate) sheet_unit: SheetUnit,
 }
 
 impl Pattern {
@@ -87,14 +90,22 @@ impl Pattern {
         warnings.map(|warning| format!("{}{}", warning.message, place(warning.at))).collect()
     }
 
-    /// The files that the command line writes.
-    pub(crate) fn files(&self) -> Result<Vec<NamedText>, Failure> {
+    /// The files that the command line writes, with the pattern in the formats that were chosen.
+    pub(crate) fn files(&self) -> Result<Vec<NamedFile>, Failure> {
         guarded_in_pool(|| {
-            let file = |file: ResultFile| NamedText {
+            let text = |file: ResultFile| NamedFile {
                 name: file.name().to_owned(),
-                text: self.flattening.file(file, &self.design),
+                bytes: self.flattening.file(file, &self.design).into_bytes(),
+                notes: Vec::new(),
             };
-            Ok(ResultFile::ALL.into_par_iter().map(file).collect())
+            let pattern = |format: PatternFormat| {
+                let file = self.flattening.pattern(format, self.sheet_unit, &self.design);
+                let (bytes, notes) = (file.bytes, file.notes);
+                NamedFile { name: format.file_name().to_owned(), bytes, notes }
+            };
+            let texts = ResultFile::ALL.into_par_iter().filter(|&f| f != ResultFile::PatternSvg);
+            let patterns = self.formats.par_iter().copied();
+            Ok(texts.map(text).chain(patterns.map(pattern)).collect())
         })
     }
 }

@@ -1,11 +1,11 @@
 //! What a dialog is made from: the table of parameters, and the design's values of the fabric.
 
 use serde_json::Value;
-use wovenfit_core::CHECK_PARAMETERS;
 use wovenfit_core::design::schema;
 use wovenfit_core::parameters::{Kind as Range, PARAMETERS, Parameter as Row};
+use wovenfit_core::{CHECK_PARAMETERS, PatternFormat};
 
-use crate::ffi::{Kind, Parameter, Wish};
+use crate::ffi::{Format, Kind, Parameter, Wish};
 
 /// Every parameter of the method, in the order in which dialogs show them.
 pub(crate) fn parameters() -> Vec<Parameter> {
@@ -15,6 +15,16 @@ pub(crate) fn parameters() -> Vec<Parameter> {
 /// Those that bear on what a surface is.
 pub(crate) fn check_parameters() -> Vec<Parameter> {
     PARAMETERS.iter().filter(|row| CHECK_PARAMETERS.contains(&row.name)).map(row).collect()
+}
+
+/// Every format of the pattern, in the order in which menus show them.
+pub(crate) fn pattern_formats() -> Vec<Format> {
+    PatternFormat::ALL
+        .map(|format| Format {
+            name: format.name().to_owned(),
+            summary: format.summary().to_owned(),
+        })
+        .into()
 }
 
 fn row(row: &Row) -> Parameter {
