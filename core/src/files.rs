@@ -191,8 +191,8 @@ impl Flattening {
             PatternFormat::Hpgl => plain(pattern_hpgl(&sheet)),
             PatternFormat::Png => (pattern_png(&sheet), Vec::new()),
         };
-        let notes = changed.into_iter().map(|[asked, written]| {
-            let file = format.file_name();
+        let file = format.file_name();
+        let notes = told_once(&changed).into_iter().map(|[asked, written]| {
             format!("{file} cannot hold \u{201c}{asked}\u{201d}: it says \u{201c}{written}\u{201d}")
         });
         PatternFile { bytes, notes: notes.collect() }
@@ -226,5 +226,28 @@ impl Flattening {
             design_sha256: design.sha256(),
             unit,
         })
+    }
+}
+
+/// What was written otherwise, without the lines that only repeat a name in them.
+fn told_once(changed: &[[String; 2]]) -> Vec<&[String; 2]> {
+    let repeats = |asked: &str| {
+        changed.iter().any(|[other, _]| other.len() < asked.len() && asked.contains(other.as_str()))
+    };
+    changed.iter().filter(|[asked, _]| !repeats(asked)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_a_format_cannot_hold_is_told_once() {
+        let pair = |asked: &str| [asked.to_owned(), asked.replace('手', "?")];
+        let changed =
+            [pair("手: page 1 of 2"), pair("手"), pair("job 手手"), pair("手: page 2 of 2")];
+        assert_eq!(told_once(&changed), [&pair("手")]);
+        let apart = [pair("brace 手"), pair("material 手"), pair("brace 手, page 1")];
+        assert_eq!(told_once(&apart), [&apart[0], &apart[1]]);
     }
 }
