@@ -11,7 +11,7 @@ fn ascii_of(c: char) -> String {
         return c.to_string();
     }
     // Pairs of the characters of a script's Latin letters and what they become.
-    const NEAREST: [(&str, &str); 22] = [
+    const NEAREST: [(&str, &str); 30] = [
         ("äæ", "ae"),
         ("ÄÆ", "Ae"),
         ("öœ", "oe"),
@@ -25,14 +25,22 @@ fn ascii_of(c: char) -> String {
         ("ÇĆČ", "C"),
         ("èéêëēęě", "e"),
         ("ÈÉÊËĒĘĚ", "E"),
-        ("ìíîïīıİÌÍÎÏ", "i"),
-        ("ñńňÑŃŇ", "n"),
-        ("òóôõøōőÒÓÔÕØŌŐ", "o"),
-        ("ùúûūůűÙÚÛŪŮŰ", "u"),
-        ("ýÿÝ", "y"),
-        ("šśşŠŚŞ", "s"),
-        ("žźżŽŹŻ", "z"),
-        ("łŁ", "l"),
+        ("ìíîïīı", "i"),
+        ("ÌÍÎÏĪİ", "I"),
+        ("ñńň", "n"),
+        ("ÑŃŇ", "N"),
+        ("òóôõøōő", "o"),
+        ("ÒÓÔÕØŌŐ", "O"),
+        ("ùúûūůű", "u"),
+        ("ÙÚÛŪŮŰ", "U"),
+        ("ýÿ", "y"),
+        ("ÝŸ", "Y"),
+        ("šśş", "s"),
+        ("ŠŚŞ", "S"),
+        ("žźż", "z"),
+        ("ŽŹŻ", "Z"),
+        ("ł", "l"),
+        ("Ł", "L"),
         ("×·", "x"),
     ];
     let dash = matches!(c, '\u{2010}'..='\u{2015}' | '\u{2212}');
@@ -96,8 +104,8 @@ mod tests {
     #[test]
     fn accents_go_and_what_is_unknown_is_a_question_mark() {
         assert_eq!(
-            ascii("Käte Müßig \u{2013} Łódź 3 \u{d7} 膝\n"),
-            "Kaete Muessig - lo??d? 3 x ? ".replace("lo??d?", "lodz")
+            ascii("Käte Müßig \u{2013} Łódź Ñandú 3 \u{d7} 膝\n"),
+            "Kaete Muessig - Lodz Nandu 3 x ? "
         );
         assert_eq!(ascii("plain ~ text"), "plain ~ text");
     }
