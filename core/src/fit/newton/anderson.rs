@@ -6,24 +6,37 @@
 //! Iterations* (2011): of the last few steps the combination is taken that would have left the least
 //! to do.
 
-use glam::DVec2;
-
 /// Differences that are remembered.
-const DEPTH: usize = 4;
+const DEPTH: usize = 6;
 
 /// Directions that differ by less than this share of their length from others count as the same.
 const INDEPENDENT: f64 = 1e-8;
 
-/// The memory of the last steps.
+/// The memory of the last steps of a state, given as numbers whose squares can be added.
 #[derive(Default)]
 pub struct Anderson {
-    last: Option<(Vec<DVec2>, Vec<DVec2>)>,
-    /// Differences of places and of steps, the latest last.
-    differences: Vec<(Vec<DVec2>, Vec<DVec2>)>,
+    last: Option<(Vec<f64>, Vec<f64>)>,
+    /// Differences of states and of steps, the latest last.
+    differences: Vec<(Vec<f64>, Vec<f64>)>,
 }
 
-fn dot(a: &[DVec2], b: &[DVec2]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a.dot(*b)).sum()
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    /// Sums side by side, so that they are not one long chain.
+    const SIDE: usize = 8;
+    let mut sums = [0.0; SIDE];
+    let (parts_a, parts_b) = (a.chunks_exact(SIDE), b.chunks_exact(SIDE));
+    let rest: f64 = parts_a.remainder().iter().zip(parts_b.remainder()).map(|(a, b)| a * b).sum();
+    for (a, b) in parts_a.zip(parts_b) {
+        for k in 0..SIDE {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    sums.iter().sum::<f64>() + rest
+}
+
+/// a − part · b.
+fn take(a: &mut [f64], part: f64, b: &[f64]) {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a -= part * b);
 }
 
 impl Anderson {
@@ -32,45 +45,43 @@ impl Anderson {
         *self = Self::default();
     }
 
-    /// The accelerated motion at a place where the fit's own step is `motion`.
-    pub fn motion(&mut self, place: &[DVec2], motion: &[DVec2]) -> Vec<DVec2> {
-        if let Some((p, m)) = self.last.take() {
-            let minus = |a: &[DVec2], b: &[DVec2]| a.iter().zip(b).map(|(&a, &b)| a - b).collect();
-            self.differences.push((minus(place, &p), minus(motion, &m)));
+    /// The accelerated step at a state where the iteration's own is `step`.
+    pub fn step(&mut self, state: &[f64], step: &[f64]) -> Vec<f64> {
+        if let Some((s, f)) = self.last.take() {
+            let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect();
+            self.differences.push((minus(state, &s), minus(step, &f)));
+            if dot(step, step) > dot(&f, &f) {
+                // It has not served: what is remembered is of another place.
+                self.differences.clear();
+            }
             if self.differences.len() > DEPTH {
                 self.differences.remove(0);
             }
         }
-        self.last = Some((place.to_vec(), motion.to_vec()));
-        // Gram–Schmidt on the differences of steps, the latest first, taking their places along.
-        let mut basis: Vec<(Vec<DVec2>, Vec<DVec2>)> = Vec::with_capacity(DEPTH);
-        let mut left = motion.to_vec();
-        let mut result = motion.to_vec();
-        for (dp, dm) in self.differences.iter().rev() {
-            let (mut dp, mut dm) = (dp.clone(), dm.clone());
-            let length = dot(&dm, &dm);
-            for (bp, bm) in &basis {
-                let part = dot(&dm, bm);
-                for k in 0..dm.len() {
-                    dm[k] -= part * bm[k];
-                    dp[k] -= part * bp[k];
-                }
+        self.last = Some((state.to_vec(), step.to_vec()));
+        // Gram–Schmidt on the differences of steps, the latest first, taking their states along.
+        let mut basis: Vec<(Vec<f64>, Vec<f64>)> = Vec::with_capacity(DEPTH);
+        let mut left = step.to_vec();
+        let mut result = step.to_vec();
+        for (ds, df) in self.differences.iter().rev() {
+            let (mut ds, mut df) = (ds.clone(), df.clone());
+            let length = dot(&df, &df);
+            for (bs, bf) in &basis {
+                let part = dot(&df, bf);
+                take(&mut df, part, bf);
+                take(&mut ds, part, bs);
             }
-            let rest = dot(&dm, &dm);
+            let rest = dot(&df, &df);
             if rest.is_nan() || rest <= INDEPENDENT * length {
                 continue;
             }
             let scale = 1.0 / rest.sqrt();
-            for k in 0..dm.len() {
-                dm[k] *= scale;
-                dp[k] *= scale;
-            }
-            let part = dot(&left, &dm);
-            for k in 0..dm.len() {
-                left[k] -= part * dm[k];
-                result[k] -= part * (dp[k] + dm[k]);
-            }
-            basis.push((dp, dm));
+            ds.iter_mut().chain(&mut df).for_each(|x| *x *= scale);
+            let part = dot(&left, &df);
+            take(&mut left, part, &df);
+            take(&mut result, part, &ds);
+            take(&mut result, part, &df);
+            basis.push((ds, df));
         }
         result
     }
@@ -84,16 +95,16 @@ mod tests {
     fn a_linear_iteration_with_few_slow_motions_ends_at_once() {
         // Four motions come back at 0.9, 0.6, −0.95 and 0.1 of their size.
         let rates = [0.9, 0.6, -0.95, 0.1];
-        let mut place: Vec<DVec2> = (0..4).map(|k| DVec2::new(f64::from(k) + 1.0, -2.0)).collect();
-        let step = |p: &[DVec2]| -> Vec<DVec2> {
-            p.iter().zip(rates).map(|(&p, rate)| (rate - 1.0) * p).collect()
+        let mut state: Vec<f64> = (0..20).map(|k| f64::from(k % 7) - 2.0).collect();
+        let step = |state: &[f64]| -> Vec<f64> {
+            state.iter().zip(rates.iter().cycle()).map(|(s, rate)| (rate - 1.0) * s).collect()
         };
         let mut anderson = Anderson::default();
         for _ in 0..6 {
-            let motion = anderson.motion(&place, &step(&place));
-            place.iter_mut().zip(&motion).for_each(|(p, d)| *p += *d);
+            let taken = anderson.step(&state, &step(&state));
+            state.iter_mut().zip(&taken).for_each(|(s, d)| *s += d);
         }
-        let left = place.iter().map(|p| p.length()).fold(0.0, f64::max);
+        let left = state.iter().fold(0.0, |most: f64, s| most.max(s.abs()));
         assert!(left < 1e-8, "{left}");
     }
 }

@@ -35,11 +35,23 @@ const AT_ONCE: usize = 4;
 /// promised, so that it hardly matters from where a fit began.
 const AGREE: f64 = 0.001;
 
-/// They still do after the last steps: a seventh of what is promised.
-const STILL_AGREE: f64 = 0.003;
-
-/// Target strains that change by less have settled.
+/// Target strains that are to change by less are as they should be.
 const SETTLED_STRAIN: f64 = 2e-4;
+
+/// How the targets are to change.
+pub struct Correction {
+    /// By thread.
+    changes: Vec<f64>,
+    /// Whether the pressures are as near to what was asked as they will come.
+    pub settled: bool,
+}
+
+impl Correction {
+    /// Whether it is more than a trifle.
+    pub fn counts(&self) -> bool {
+        self.changes.iter().any(|change| change.abs() >= SETTLED_STRAIN)
+    }
+}
 
 /// How the pressures answer to the targets.
 pub struct Answers {
@@ -61,14 +73,11 @@ pub struct Threads<'a> {
     wishes: Vec<Wish>,
     /// How the pressures answer to the targets, by thread then by annotation, in kPa per strain.
     answers: Option<Vec<Vec<f64>>>,
-    settled: bool,
-    /// Whether that is because the pressures agree.
-    agreed: bool,
     rounds: usize,
 }
 
 /// Corrections are given up after so many: a pressure that has not come by then does not.
-const MOST_ROUNDS: usize = 12;
+const MOST_ROUNDS: usize = 30;
 
 impl<'a> Threads<'a> {
     /// The threads through the annotations at these pattern coordinates.
@@ -80,8 +89,6 @@ impl<'a> Threads<'a> {
             asked: Vec::new(),
             wishes: Vec::new(),
             answers: None,
-            settled: !input.parameters.correct_pressures || input.annotations.is_empty(),
-            agreed: false,
             rounds: 0,
         };
         threads.find(coordinates, None);
@@ -89,20 +96,26 @@ impl<'a> Threads<'a> {
     }
 
     /// Continues with the targets of an earlier fit where it has one for the same annotation, and with its
-    /// answers if it is still the same threads that were annotated.
-    pub fn resume(&mut self, earlier: &Targets, answers: Option<&Answers>) {
+    /// answers if it is still the same threads that were annotated. Whether the answers serve: then the
+    /// targets are the earlier fit's and are to be corrected before the first step.
+    pub fn resume(&mut self, earlier: &Targets, answers: Option<&Answers>) -> bool {
         self.answers = answers
             .filter(|answers| answers.groups == self.groups)
             .map(|answers| answers.by_thread.clone());
+        let limit = self.input.fabric.max_strain;
         for (group, asked) in self.groups.iter().zip(&mut self.asked) {
             let before = earlier.threads.iter().find(|t| t.annotations == *group);
             let (Some(before), Some(asked)) = (before, asked.as_mut()) else { continue };
             if let (Some(wanted), Some(given)) = (before.wanted, before.asked) {
-                let limit = self.input.fabric.max_strain;
-                // The correction stays, the wish may have changed.
-                *asked = (*asked + given - wanted.clamp(0.0, limit)).clamp(0.0, limit);
+                *asked = if self.answers.is_some() {
+                    given
+                } else {
+                    // The correction stays, the wish may have changed.
+                    (*asked + given - wanted.clamp(0.0, limit)).clamp(0.0, limit)
+                };
             }
         }
+        self.answers.is_some() && self.corrects()
     }
 
     /// The answers, for the next fit.
@@ -110,9 +123,29 @@ impl<'a> Threads<'a> {
         Some(Answers { groups: self.groups, by_thread: self.answers? })
     }
 
-    /// Whether the pressures are as near to what was asked as they will come.
-    pub fn settled(&self) -> bool {
-        self.settled
+    /// Whether there are targets to correct.
+    pub fn corrects(&self) -> bool {
+        self.input.parameters.correct_pressures && !self.input.annotations.is_empty()
+    }
+
+    /// The corrected targets by thread, as numbers.
+    pub fn asked(&self) -> impl Iterator<Item = f64> {
+        self.asked.iter().map(|asked| asked.unwrap_or(0.0))
+    }
+
+    /// Replaces them; they stay within their range.
+    pub fn ask(&mut self, targets: impl Iterator<Item = f64>) {
+        let limit = self.input.fabric.max_strain;
+        for (asked, target) in self.asked.iter_mut().zip(targets) {
+            *asked = asked.map(|_| target.clamp(0.0, limit));
+        }
+    }
+
+    /// Changes the targets.
+    pub fn take(&mut self, correction: &Correction) {
+        let changed: Vec<f64> =
+            self.asked().zip(&correction.changes).map(|(asked, change)| asked + change).collect();
+        self.ask(changed.into_iter());
     }
 
     /// Whether no target has been corrected yet.
@@ -247,46 +280,32 @@ impl<'a> Threads<'a> {
         reached.iter().map(presses).collect()
     }
 
-    fn agree(&self, got: &[f64], counts: &[bool], within: f64) -> bool {
+    fn agree(&self, got: &[f64], counts: &[bool]) -> bool {
         self.input
             .annotations
             .iter()
             .zip(got)
             .zip(counts)
-            .all(|((a, &got), &counts)| !counts || (got - a.kpa).abs() <= within * a.kpa.max(1.0))
+            .all(|((a, &got), &counts)| !counts || (got - a.kpa).abs() <= AGREE * a.kpa.max(1.0))
     }
 
-    /// Looks again whether pressures that agreed some steps ago still do; if not, they are to be corrected.
-    pub fn unsettle(&mut self, coordinates: &[DVec2]) -> bool {
-        if !self.agreed || self.rounds > MOST_ROUNDS {
-            return false;
-        }
-        let here = self.reached(coordinates);
-        let agree = self.agree(&self.pressures(&here), &self.counts(&here), STILL_AGREE);
-        self.settled = agree;
-        !agree
-    }
-
-    /// Corrects the targets; if they agree at one of the `last` steps they are settled. `answers` gives how the
-    /// pattern moves when the present targets are replaced by each of others, or nothing if the job is
-    /// cancelled: then the targets are of no use. Whether any target changed.
-    pub fn correct(
+    /// How the targets are to be corrected. `answers` gives how the pattern moves when the present targets
+    /// are replaced by each of others, or nothing if the job is cancelled: then it is of no use.
+    pub fn correction(
         &mut self,
         coordinates: &[DVec2],
-        last: bool,
         answers: impl Fn(&[Targets]) -> Vec<Vec<DVec2>>,
-    ) -> bool {
+    ) -> Correction {
         let here = self.reached(coordinates);
         self.rounds += 1;
         self.find(coordinates, Some(&here));
         let FitInput { annotations, fabric, pressure_model, .. } = *self.input;
+        let count = self.groups.len();
+        if self.rounds > MOST_ROUNDS {
+            return Correction { changes: vec![0.0; count], settled: true };
+        }
         let got = self.pressures(&here);
         let counts = self.counts(&here);
-        self.agreed = self.agree(&got, &counts, AGREE);
-        if self.agreed || self.rounds > MOST_ROUNDS {
-            self.settled = last || !self.agreed;
-            return false;
-        }
         // Pressure per strain of a thread by itself.
         let own = |k: usize| {
             let Reached { curvature, threads, .. } = here[k];
@@ -294,7 +313,6 @@ impl<'a> Threads<'a> {
             let now = pressure_kpa(pressure_model, fabric, &curvature, &threads);
             (pressure_kpa(pressure_model, fabric, &curvature, &more) - now) / 0.01
         };
-        let count = self.groups.len();
         if self.answers.is_none() {
             // Away from the nearer end of the range, where the function is held.
             let step = |asked: f64| if asked > 0.5 * fabric.max_strain { -0.01 } else { 0.01 };
@@ -327,7 +345,7 @@ impl<'a> Threads<'a> {
             }
             self.answers = Some(by_thread);
         }
-        let Some(answers) = &self.answers else { return false };
+        let answers = self.answers.as_deref().unwrap_or_default();
         let mut problem = LeastSquares::new(count);
         for k in (0..annotations.len()).filter(|&k| counts[k]) {
             let row: Vec<f64> = (0..count).map(|i| answers[i][k]).collect();
@@ -346,13 +364,9 @@ impl<'a> Threads<'a> {
             })
             .collect();
         let changes = problem.solve(&limits);
-        for (asked, change) in self.asked.iter_mut().zip(&changes) {
-            if let Some(asked) = asked {
-                *asked = (*asked + change).clamp(0.0, fabric.max_strain);
-            }
-        }
-        self.settled = changes.iter().all(|change| change.abs() < SETTLED_STRAIN);
-        !self.settled
+        let mut correction = Correction { changes, settled: false };
+        correction.settled = !correction.counts() || self.agree(&got, &counts);
+        correction
     }
 }
 

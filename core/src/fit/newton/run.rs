@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::anderson::Anderson;
 use super::element::Order;
-use super::pressures::Threads;
+use super::pressures::{Correction, Threads};
 use super::problem::{Model, Place, Problem, Room, Solved};
 use super::triangles::{Turning, Wanted};
 use super::{Earlier, Kept, Solver};
@@ -25,9 +25,6 @@ const NEAR_ENERGY: f64 = 0.02;
 /// They are corrected for the first time after a step that moves no vertex by more than this, in mm: the
 /// fabric is then still on its way, and goes to another place at no cost.
 const FIRST_MM: f64 = 35.0;
-
-/// Pressures that agree after a step that moves no vertex by more than this, in mm, are believed until the end.
-const SETTLED_MM: f64 = 0.05;
 
 /// Steps that move no vertex by more than this are taken as they are: what follows the fabric (threads,
 /// turning springs, a seam's course) makes the energy an uncertain judge of them.
@@ -73,6 +70,19 @@ pub struct Run<'a> {
     resumed: bool,
     /// Whether the last step was a large one.
     far: bool,
+    /// By what a target strain counts beside a coordinate in mm: what it moves the vertices.
+    scale: f64,
+}
+
+/// How the vertices were moved.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Advance {
+    /// By a small step, as it is.
+    Trusted,
+    /// As far along a step as the energy falls, or not with a Hessian that is let go for it.
+    Searched,
+    /// Not at all: there is no way down.
+    Nowhere,
 }
 
 /// A step on trial.
@@ -117,13 +127,19 @@ impl<'a> Run<'a> {
         let mut threads = Threads::new(input, &coordinates);
         let problem = Problem::new(solver, input, progress);
         let mut model = None;
+        let mut known = false;
         if let Some(Earlier { fit, kept }) = earlier {
             let kept = kept.filter(|kept| problem.like(&kept.springs, &kept.upright));
-            threads.resume(&fit.targets, kept.and_then(|kept| kept.answers.as_ref()));
+            known = threads.resume(&fit.targets, kept.and_then(|kept| kept.answers.as_ref()));
             model = kept.map(|kept| Arc::clone(&kept.model));
         }
         let resumed = model.is_some();
-        Self {
+        let [low, high] = coordinates
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], p| [l.min(p.x), h.max(p.x)]);
+        // Root mean square of what an even strain moves the vertices, over all of them.
+        let scale = (high - low) / 12f64.sqrt() * (coordinates.len() as f64).sqrt();
+        let mut run = Self {
             problem,
             coordinates,
             threads,
@@ -137,7 +153,14 @@ impl<'a> Run<'a> {
             kept: false,
             stale: false,
             far: earlier.is_none(),
+            scale,
+        };
+        if known {
+            // The fabric is where the earlier targets have brought it.
+            let correction = run.correction();
+            run.take(&correction);
         }
+        run
     }
 
     /// Steps until nothing moves; the fit, and the run as it ended.
@@ -157,27 +180,29 @@ impl<'a> Run<'a> {
                 parameters.spacing,
             );
             let step = self.step(&wanted, &turning)?;
-            let moved = self.advance(&step, &wanted, &turning);
+            let before = self.state();
+            let advance = self.advance(&step, &wanted, &turning);
             self.iterations += 1;
             self.last = step.largest;
             self.far = step.largest > FAR_MM;
-            let largest = step.largest;
-            let mut corrected = false;
-            if !self.threads.settled() && self.ripe(&step) {
-                corrected = self.correct(largest < SETTLED_MM);
-            } else {
-                self.threads.follow(&self.coordinates);
+            let correction = (self.model.is_some() && self.threads.corrects() && self.ripe(&step))
+                .then(|| self.correction());
+            let settled = correction.as_ref().map_or(!self.threads.corrects(), |c| c.settled);
+            if step.largest < parameters.newton_tolerance && settled {
+                targets = self.threads.targets(&self.coordinates);
+                self.record(&targets);
+                break Stopped::Gradient;
+            }
+            match correction {
+                Some(correction) => self.take(&correction),
+                None => self.threads.follow(&self.coordinates),
+            }
+            if advance == Advance::Trusted {
+                self.accelerate(&before);
             }
             targets = self.threads.targets(&self.coordinates);
             self.record(&targets);
-            let rests = largest < parameters.newton_tolerance && !corrected;
-            if rests && self.threads.settled() {
-                if !self.threads.unsettle(&self.coordinates) || !self.correct(true) {
-                    break Stopped::Gradient;
-                }
-                targets = self.threads.targets(&self.coordinates);
-            }
-            if self.iterations >= parameters.newton_steps || !moved {
+            if self.iterations >= parameters.newton_steps || advance == Advance::Nowhere {
                 break Stopped::MaxIterations;
             }
         };
@@ -198,7 +223,7 @@ impl<'a> Run<'a> {
     fn ripe(&self, step: &Step) -> bool {
         let energy = self.history.last().map_or(0.0, |entry| entry.misfit.energy);
         let near = step.largest < NEAR_MM || -step.slope < NEAR_ENERGY * energy;
-        near || (step.largest < FIRST_MM && self.threads.untouched())
+        near || if self.threads.untouched() { step.largest < FIRST_MM } else { !self.stale }
     }
 
     fn wanted(&self, targets: &Targets) -> Wanted {
@@ -264,19 +289,37 @@ impl<'a> Run<'a> {
         Err(FitError::System(SparseError::NotPositiveDefinite(0)))
     }
 
-    /// Moves the vertices; whether they moved.
-    fn advance(&mut self, step: &Step, wanted: &Wanted, turning: &[Turning]) -> bool {
+    /// Coordinates and targets as numbers that count alike.
+    fn state(&self) -> Vec<f64> {
+        let coordinates = self.coordinates.iter().flat_map(|p| p.to_array());
+        coordinates.chain(self.threads.asked().map(|asked| self.scale * asked)).collect()
+    }
+
+    /// Goes further, or less far, than from `before` to here.
+    fn accelerate(&mut self, before: &[f64]) {
+        let step: Vec<f64> = self.state().iter().zip(before).map(|(to, from)| to - from).collect();
+        let taken = self.anderson.step(before, &step);
+        let coordinates = 2 * self.coordinates.len();
+        let from: Vec<DVec2> =
+            before[..coordinates].chunks_exact(2).map(DVec2::from_slice).collect();
+        let motion: Vec<DVec2> =
+            taken[..coordinates].chunks_exact(2).map(DVec2::from_slice).collect();
+        let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
+        if largest >= TRUSTED_MM || self.problem.solver.triangles.longest_step(&from, &motion) < 1.0
+        {
+            return;
+        }
+        self.coordinates = from.iter().zip(&motion).map(|(&p, &d)| p + d).collect();
+        let targets = before[coordinates..].iter().zip(&taken[coordinates..]);
+        self.threads.ask(targets.map(|(from, step)| (from + step) / self.scale));
+    }
+
+    /// Moves the vertices.
+    fn advance(&mut self, step: &Step, wanted: &Wanted, turning: &[Turning]) -> Advance {
         let longest = self.problem.solver.triangles.longest_step(&self.coordinates, &step.motion);
         if longest == 1.0 && step.largest < TRUSTED_MM {
-            let motion = self.anderson.motion(&self.coordinates, &step.motion);
-            let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
-            let longest = self.problem.solver.triangles.longest_step(&self.coordinates, &motion);
-            let motion =
-                if longest == 1.0 && largest < TRUSTED_MM { &motion } else { &step.motion };
-            for (p, d) in self.coordinates.iter_mut().zip(motion) {
-                *p += *d;
-            }
-            return true;
+            self.coordinates.iter_mut().zip(&step.motion).for_each(|(p, d)| *p += *d);
+            return Advance::Trusted;
         }
         self.anderson.forget();
         let tried = |length: f64| -> Vec<DVec2> {
@@ -292,14 +335,14 @@ impl<'a> Run<'a> {
             if value(&there) <= before + 1e-4 * length * step.slope {
                 self.coordinates = there;
                 self.stale = length < 1.0 || (step.largest > KEPT_MM && !self.resumed);
-                return true;
+                return Advance::Searched;
             }
             length *= 0.5;
         }
         // A Hessian from elsewhere may be the reason.
         let retry = self.kept;
         self.forget();
-        retry
+        if retry { Advance::Searched } else { Advance::Nowhere }
     }
 
     /// The Hessian no longer serves.
@@ -317,19 +360,19 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Corrects the targets; whether they changed. What agrees at the `last` steps is done.
-    fn correct(&mut self, last: bool) -> bool {
-        let (problem, coordinates) = (&self.problem, &self.coordinates);
-        let Some(model) = &self.model else { return false };
+    /// How the targets are to be corrected here.
+    fn correction(&mut self) -> Correction {
         if self.stale {
             self.threads.forget_answers();
         }
+        let (problem, coordinates, model) = (&self.problem, &self.coordinates, &self.model);
         let gradient = |targets: &Targets| {
             let wanted = Wanted::new(targets, problem.input.fabric.weft_strain);
             problem.solver.triangles.gradient(coordinates, &problem.springs, &wanted, &[])
         };
         let now = self.threads.targets(coordinates);
-        let corrected = self.threads.correct(coordinates, last, |others| {
+        self.threads.correction(coordinates, |others| {
+            let Some(model) = model else { return Vec::new() };
             if problem.ask().is_err() {
                 return Vec::new();
             }
@@ -343,13 +386,16 @@ impl<'a> Run<'a> {
             }
             let forces: Vec<&[f64]> = forces.iter().map(Vec::as_slice).collect();
             problem.answers(model, &forces)
-        });
-        if corrected {
+        })
+    }
+
+    /// Corrects them.
+    fn take(&mut self, correction: &Correction) {
+        if correction.counts() {
             // The next step is not to be measured against the last.
             self.last = f64::INFINITY;
-            self.anderson.forget();
         }
-        corrected
+        self.threads.take(correction);
     }
 
     /// J_E without the condition that sewn edges have equal lengths, in N·mm, where there are any; and what

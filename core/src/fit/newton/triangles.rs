@@ -78,7 +78,7 @@ const OUTWEIGHS: f64 = 2.0;
 
 /// Share of the turning springs in the Hessian: between a course that the neighbourhood follows (none
 /// of them is felt) and a zigzag, which feels all of them.
-const FELT: f64 = 0.5;
+const FELT: f64 = 0.6;
 
 impl Triangles {
     /// Those of a surface.
