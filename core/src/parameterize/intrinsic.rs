@@ -56,8 +56,8 @@ pub(super) fn intrinsic(
             Element { stiffness: std::array::from_fn(|_| lower.next().map_or(0.0, entry)) }
         })
         .collect();
-    let mut values = vec![0.0; matrix.entries()];
-    matrix.add_triangles(&mut values, &elements);
+    let mut values = Vec::new();
+    matrix.set_triangles(&mut values, &elements);
     let mean = matrix.mean_diagonal(&values);
     for pin in pins {
         matrix.add_diagonal(&mut values, pin.index(), mean);
@@ -65,9 +65,10 @@ pub(super) fn intrinsic(
         right[2 * pin.index() + 1] = 0.0;
     }
     let factor = matrix
-        .factorize(&values, Vec::new(), progress)?
-        .map_err(|_| SparseError::NotPositiveDefinite(pins[0].index()))?;
+        .factorize(&values, progress)?
+        .ok_or(SparseError::NotPositiveDefinite(pins[0].index()))?;
     let solution = matrix.solve(&factor, &[&right]).swap_remove(0);
+    matrix.take_back(factor);
     let coordinates: Vec<DVec2> = surface
         .vertex_ids()
         .zip(solution.chunks_exact(2))

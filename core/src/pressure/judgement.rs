@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::formula::{
     FLAT_CURVATURE, LocalCurvature, Stretch, Wish, pressing_curvature, pressure_kpa, warp_strain,
 };
-use super::reached::{Reached, reached};
+use super::reached::{Reached, Reader};
 use super::{Annotation, Targets, Woven};
 use crate::design::{Fabric, PressureModel};
 use crate::geometry::closest_on_triangle;
@@ -199,7 +199,7 @@ pub fn judge(
     parameters: &Parameters,
 ) -> Vec<Judgement> {
     let radius = parameters.curvature_radius;
-    let reached = reached(brace.disk, brace.coordinates, annotations, radius);
+    let reached = Reader::new(brace.disk, annotations, radius).read(brace.coordinates);
     (0..annotations.len())
         .map(|k| judge_one(brace, annotations, &reached, k, fabric, pressure_model, parameters))
         .collect()

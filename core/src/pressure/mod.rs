@@ -13,9 +13,7 @@ pub use formula::{
     FLAT_CURVATURE, LocalCurvature, Stretch, Wish, pressing_curvature, pressure_kpa, warp_strain,
 };
 pub use judgement::{Brace, Judgement, Reason, judge};
-pub use reached::{
-    Along, Patch, Reached, TriangleStretch, patch, reached, thread_strains, triangle_stretch,
-};
+pub use reached::{Reached, Reader, TriangleStretch, triangle_stretch};
 pub use strain_function::{Datum, StrainCourse, StrainForm, StrainFunction};
 pub use targets::{Annotation, Targets, ThreadTarget};
 pub use woven::{TargetError, Woven, WovenTargets, target_strains};

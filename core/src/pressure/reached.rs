@@ -43,28 +43,20 @@ pub fn triangle_stretch(
 
 /// The fabric round a point: its threads' directions and its mean stretch.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Patch {
+struct Patch {
     /// Direction of the warp thread in space (not of unit length).
-    pub warp: DVec3,
+    warp: DVec3,
     /// Direction of the weft thread.
-    pub weft: DVec3,
+    weft: DVec3,
     /// Mean strains and area stretch.
-    pub stretch: Stretch,
+    stretch: Stretch,
 }
 
-/// Means over the triangles within `radius` mm of a point and connected to it, weighted by their
-/// area in the pattern; at least the point's own triangle.
-#[must_use]
-pub fn patch(
-    disk: &Surface,
-    coordinates: &[DVec2],
-    point: &SurfacePoint,
-    radius: f64,
-) -> Option<Patch> {
-    let centre = point.position(disk);
+/// Means over some triangles, weighted by their area in the pattern.
+fn patch(disk: &Surface, coordinates: &[DVec2], triangles: &[TriangleId]) -> Option<Patch> {
     let (mut warp, mut weft) = (DVec3::ZERO, DVec3::ZERO);
     let (mut warp_length, mut weft_length, mut area, mut worn) = (0.0, 0.0, 0.0, 0.0);
-    for t in triangles_within(disk, point.triangle, centre, radius) {
+    for &t in triangles {
         let Some(stretch) = triangle_stretch(disk, coordinates, t) else { continue };
         let w = stretch.rest_area.abs();
         warp += w * stretch.warp;
@@ -85,12 +77,9 @@ pub fn patch(
     })
 }
 
-fn triangles_within(
-    disk: &Surface,
-    start: TriangleId,
-    centre: DVec3,
-    radius: f64,
-) -> Vec<TriangleId> {
+/// The triangles within `radius` mm of a point and connected to it; at least the point's own.
+fn triangles_within(disk: &Surface, point: &SurfacePoint, radius: f64) -> Vec<TriangleId> {
+    let (start, centre) = (point.triangle, point.position(disk));
     let mut seen = BTreeSet::from([start]);
     let mut queue = VecDeque::from([start]);
     let mut found = Vec::new();
@@ -111,11 +100,21 @@ fn triangles_within(
 
 /// Which way a thread runs in the pattern.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Along {
+enum Along {
     /// A row: constant y.
     Warp,
     /// A column: constant x.
     Weft,
+}
+
+impl Along {
+    /// A place of the pattern as (along the thread, across it).
+    fn turn(self, p: DVec2) -> DVec2 {
+        match self {
+            Self::Warp => p,
+            Self::Weft => DVec2::new(p.y, p.x),
+        }
+    }
 }
 
 /// What a pattern gives at an annotated point.
@@ -131,116 +130,143 @@ pub struct Reached {
     pub local: Stretch,
 }
 
-/// What a pattern gives at every annotated point; strains round a point are means over `radius` mm.
-#[must_use]
-pub fn reached(
-    disk: &Surface,
-    coordinates: &[DVec2],
-    annotations: &[Annotation],
-    radius: f64,
-) -> Vec<Reached> {
-    let places: Vec<DVec2> =
-        annotations.iter().map(|a| a.point.interpolate(disk, coordinates)).collect();
-    let warp = thread_strains(disk, coordinates, &places, Along::Warp);
-    let weft = thread_strains(disk, coordinates, &places, Along::Weft);
-    annotations
-        .par_iter()
-        .enumerate()
-        .map(|(k, annotation)| {
-            let round = patch(disk, coordinates, &annotation.point, radius);
-            let shape = &annotation.shape;
-            let mean = shape.mean();
-            let curvature =
-                round.map_or(LocalCurvature { warp: mean, weft: mean, mean }, |patch| {
-                    LocalCurvature {
-                        warp: shape.normal_curvature(patch.warp),
-                        weft: shape.normal_curvature(patch.weft),
-                        mean,
-                    }
-                });
-            let local = round.map_or(Stretch::without_shear(0.0, 0.0), |patch| patch.stretch);
-            let threads = Stretch::without_shear(
-                warp[k].unwrap_or(local.warp),
-                weft[k].unwrap_or(local.weft),
-            );
-            Reached { place: places[k], curvature, threads, local }
-        })
-        .collect()
+/// Reads at annotated points what patterns of one surface give there.
+#[derive(Debug)]
+pub struct Reader<'a> {
+    disk: &'a Surface,
+    annotations: &'a [Annotation],
+    /// The triangles round each of them.
+    round: Vec<Vec<TriangleId>>,
+    gap: f64,
 }
 
-/// Strains of the threads through places of the pattern: of each its worn length over its rest
-/// length, less one. By Lemma 3 a thread's tension, and so its strain, evens out to this along its
+impl<'a> Reader<'a> {
+    /// Strains round a point are means over `radius` mm.
+    #[must_use]
+    pub fn new(disk: &'a Surface, annotations: &'a [Annotation], radius: f64) -> Self {
+        let round =
+            annotations.par_iter().map(|a| triangles_within(disk, &a.point, radius)).collect();
+        Self { disk, annotations, round, gap: gap(disk) }
+    }
+
+    /// What a pattern gives at every annotated point.
+    #[must_use]
+    pub fn read(&self, coordinates: &[DVec2]) -> Vec<Reached> {
+        let Self { disk, annotations, .. } = *self;
+        let places: Vec<DVec2> =
+            annotations.iter().map(|a| a.point.interpolate(disk, coordinates)).collect();
+        let [warp, weft] = thread_strains(disk, coordinates, &places, self.gap);
+        annotations
+            .iter()
+            .zip(&self.round)
+            .enumerate()
+            .map(|(k, (annotation, triangles))| {
+                let round = patch(disk, coordinates, triangles);
+                let shape = &annotation.shape;
+                let mean = shape.mean();
+                let curvature =
+                    round.map_or(LocalCurvature { warp: mean, weft: mean, mean }, |patch| {
+                        LocalCurvature {
+                            warp: shape.normal_curvature(patch.warp),
+                            weft: shape.normal_curvature(patch.weft),
+                            mean,
+                        }
+                    });
+                let local = round.map_or(Stretch::without_shear(0.0, 0.0), |patch| patch.stretch);
+                let threads = Stretch::without_shear(
+                    warp[k].unwrap_or(local.warp),
+                    weft[k].unwrap_or(local.weft),
+                );
+                Reached { place: places[k], curvature, threads, local }
+            })
+            .collect()
+    }
+}
+
+/// A gap in a thread is an opening of the pattern; a hundredth of a typical edge is rounding.
+fn gap(disk: &Surface) -> f64 {
+    0.01 * disk.mean_edge_length()
+}
+
+/// A piece of a thread in one triangle: where along the thread it begins and ends, and its worn length.
+type Part = (f64, f64, f64);
+
+/// Strains of the warp and the weft threads through places of the pattern: of each its worn length over its
+/// rest length, less one. By Lemma 3 a thread's tension, and so its strain, evens out to this along its
 /// whole length.
 ///
 /// A thread is the straight line of the pattern through its place, as far as the pattern goes on
 /// both sides without a gap. `None` outside the pattern.
-#[must_use]
-pub fn thread_strains(
+fn thread_strains(
     disk: &Surface,
     coordinates: &[DVec2],
     places: &[DVec2],
-    along: Along,
-) -> Vec<Option<f64>> {
-    // In coordinates (s along the thread, h across it).
-    let turn = |p: DVec2| match along {
-        Along::Warp => p,
-        Along::Weft => DVec2::new(p.y, p.x),
-    };
-    let mut lines: Vec<(f64, usize)> =
-        places.iter().enumerate().map(|(k, &p)| (turn(p).y, k)).collect();
-    lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+    gap: f64,
+) -> [Vec<Option<f64>>; 2] {
     /// Below this many triangles a task costs more than it saves.
-    const TRIANGLES_PER_TASK: usize = 4096;
-    let triangles: Vec<TriangleId> = disk.triangle_ids().collect();
-    // (line, from, to, worn length), in the triangles' order.
-    let crossed: Vec<(usize, f64, f64, f64)> = triangles
+    const TRIANGLES_PER_TASK: usize = 2048;
+    let lines = [Along::Warp, Along::Weft].map(|along| {
+        let mut lines: Vec<(f64, usize)> =
+            places.iter().enumerate().map(|(k, &p)| (along.turn(p).y, k)).collect();
+        lines.sort_by(|a, b| a.0.total_cmp(&b.0));
+        lines
+    });
+    let found: Vec<[Vec<(usize, Part)>; 2]> = disk
+        .triangles()
         .par_chunks(TRIANGLES_PER_TASK)
-        .flat_map_iter(|chunk| {
-            let mut found = Vec::new();
-            for &t in chunk {
-                let plane = disk.triangle(t).map(|v| turn(coordinates[v.index()]));
-                let low = plane[0].y.min(plane[1].y).min(plane[2].y);
-                let high = plane[0].y.max(plane[1].y).max(plane[2].y);
-                let first = lines.partition_point(|&(h, _)| h < low);
-                for &(h, k) in lines[first..].iter().take_while(|&&(h, _)| h <= high) {
-                    let corners = disk.corners(t);
-                    let mut ends = [(0.0, DVec3::ZERO); 2];
-                    let mut count = 0;
-                    for i in 0..3 {
-                        let (a, b) = (plane[i], plane[(i + 1) % 3]);
-                        // Half-open, so that a line through a vertex crosses each triangle twice
-                        // or not at all.
-                        if (a.y < h) != (b.y < h) && count < 2 {
-                            let f = (a.y - h) / (a.y - b.y);
-                            let place = corners[i].lerp(corners[(i + 1) % 3], f);
-                            ends[count] = (a.x + f * (b.x - a.x), place);
-                            count += 1;
-                        }
-                    }
-                    if count == 2 {
-                        let [(s0, p0), (s1, p1)] = ends;
-                        found.push((k, s0.min(s1), s0.max(s1), p0.distance(p1)));
+        .map(|triangles| {
+            let mut found = [Vec::new(), Vec::new()];
+            for corners in triangles {
+                let plane = corners.map(|v| coordinates[v.index()]);
+                for (along, (lines, found)) in
+                    [Along::Warp, Along::Weft].into_iter().zip(lines.iter().zip(&mut found))
+                {
+                    let plane = plane.map(|p| along.turn(p));
+                    let low = plane[0].y.min(plane[1].y).min(plane[2].y);
+                    let high = plane[0].y.max(plane[1].y).max(plane[2].y);
+                    let first = lines.partition_point(|&(h, _)| h < low);
+                    for &(h, k) in lines[first..].iter().take_while(|&&(h, _)| h <= high) {
+                        let worn = corners.map(|v| disk.point(v));
+                        found.extend(crossing(plane, worn, h).map(|part| (k, part)));
                     }
                 }
             }
             found
         })
         .collect();
-    let mut pieces: Vec<Vec<(f64, f64, f64)>> = vec![Vec::new(); places.len()];
-    for (k, low, high, length) in crossed {
-        pieces[k].push((low, high, length));
+    let mut parts = [vec![Vec::new(); places.len()], vec![Vec::new(); places.len()]];
+    for found in found {
+        for (parts, found) in parts.iter_mut().zip(found) {
+            found.into_iter().for_each(|(k, part)| parts[k].push(part));
+        }
     }
-    // A gap is an opening of the pattern; a hundredth of a typical edge is rounding.
-    let tolerance = 0.01 * disk.mean_edge_length();
-    pieces
-        .into_iter()
-        .zip(places)
-        .map(|(pieces, &place)| one_thread(pieces, turn(place).x, tolerance))
-        .collect()
+    let mut parts = parts.into_iter();
+    [Along::Warp, Along::Weft].map(|along| {
+        let parts = parts.next().unwrap_or_default();
+        let threads = parts.into_iter().zip(places);
+        threads.map(|(parts, &place)| one_thread(parts, along.turn(place).x, gap)).collect()
+    })
+}
+
+/// Where the line at height `h` crosses a triangle.
+fn crossing(plane: [DVec2; 3], worn: [DVec3; 3], h: f64) -> Option<Part> {
+    let mut ends = [(0.0, DVec3::ZERO); 2];
+    let mut count = 0;
+    for i in 0..3 {
+        let (a, b) = (plane[i], plane[(i + 1) % 3]);
+        // Half-open, so that a line through a vertex crosses each triangle twice or not at all.
+        if (a.y < h) != (b.y < h) && count < 2 {
+            let f = (a.y - h) / (a.y - b.y);
+            ends[count] = (a.x + f * (b.x - a.x), worn[i].lerp(worn[(i + 1) % 3], f));
+            count += 1;
+        }
+    }
+    let [(s0, p0), (s1, p1)] = ends;
+    (count == 2).then(|| (s0.min(s1), s0.max(s1), p0.distance(p1)))
 }
 
 /// Strain of the run of pieces (from, to, worn length) that holds `at`.
-fn one_thread(mut pieces: Vec<(f64, f64, f64)>, at: f64, tolerance: f64) -> Option<f64> {
+fn one_thread(mut pieces: Vec<Part>, at: f64, tolerance: f64) -> Option<f64> {
     pieces.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let (mut rest, mut worn) = (0.0, 0.0);
     let mut reach = f64::NEG_INFINITY;
@@ -292,7 +318,8 @@ mod tests {
     #[test]
     fn a_threads_strain_is_its_whole_lengthening() {
         let (disk, plane) = strips();
-        let strain = |place, along| thread_strains(&disk, &plane, &[place], along)[0];
+        let strains = |places: &[DVec2]| thread_strains(&disk, &plane, places, gap(&disk));
+        let strain = |place, along| strains(&[place])[along as usize][0];
         for y in [7.0, 20.0, 33.0] {
             let strain = strain(DVec2::new(5.0, y), Along::Warp).unwrap();
             assert!((strain - 23.0 / 60.0).abs() < 1e-12, "{y}: {strain}");
@@ -301,7 +328,7 @@ mod tests {
         assert_eq!(strain(DVec2::new(70.0, 7.0), Along::Warp), None);
         // Several at once, in any order.
         let places = [20.0, 70.0, 3.0].map(|x| DVec2::new(x, 0.5 * x));
-        let together = thread_strains(&disk, &plane, &places, Along::Warp);
+        let [together, _] = strains(&places);
         assert_eq!(together, places.map(|p| strain(p, Along::Warp)));
     }
 
@@ -310,11 +337,11 @@ mod tests {
         let (disk, plane) = strips();
         let point =
             SurfacePoint { triangle: TriangleId::new(0), barycentric: DVec3::splat(1.0 / 3.0) };
-        let near = patch(&disk, &plane, &point, 0.0).unwrap();
+        let near = patch(&disk, &plane, &triangles_within(&disk, &point, 0.0)).unwrap();
         assert!((near.stretch.warp - 0.1).abs() < 1e-12);
         assert!((near.stretch.weft - 0.05).abs() < 1e-12);
         assert!((near.stretch.area - 1.1 * 1.05).abs() < 1e-12);
-        let far = patch(&disk, &plane, &point, 1000.0).unwrap();
+        let far = patch(&disk, &plane, &triangles_within(&disk, &point, 1000.0)).unwrap();
         assert!((far.stretch.warp - 23.0 / 60.0).abs() < 1e-12);
         assert!(far.warp.normalize().distance(DVec3::X) < 1e-12);
     }

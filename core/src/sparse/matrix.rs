@@ -4,6 +4,8 @@
 //! further term (an edge of a seam and the one sewn to it). It never changes, so the order of
 //! elimination (`dissection`) and the analysis (`multifrontal`) are made once.
 
+use std::sync::{Mutex, PoisonError};
+
 use rayon::prelude::*;
 
 use super::cholesky::SparseError;
@@ -19,6 +21,16 @@ struct Block {
     turned: bool,
 }
 
+/// The part of a block that comes from one triangle.
+#[derive(Debug, Clone, Copy, Default)]
+struct Part {
+    triangle: u32,
+    /// The corners, in the order of `PAIRS`.
+    pair: u8,
+    /// Whether it stands transposed.
+    turned: bool,
+}
+
 /// A triangle's part of a matrix.
 #[derive(Debug, Clone, Copy)]
 pub struct Element {
@@ -31,19 +43,64 @@ pub struct Matrix {
     vertices: usize,
     factors: Multifrontal,
     blocks: usize,
-    /// The blocks of a triangle's corners, in the order of `PAIRS`.
-    triangles: Vec<[Block; 6]>,
+    /// What each block gets from the triangles: those of block k are `parts[starts[k]..starts[k + 1]]`, in the
+    /// triangles' order.
+    starts: Vec<u32>,
+    parts: Vec<Part>,
     /// Of every clique the blocks of its pairs, lower triangle row by row.
     cliques: Vec<Vec<Block>>,
     /// Of every vertex with itself.
     diagonal: Vec<u32>,
+    /// Room of a factor that is no longer needed: new memory costs as much as half a factorization.
+    spare: Mutex<Vec<f64>>,
 }
 
 /// Corner pairs of a triangle, lower triangle row by row.
 const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)];
 
-fn triangular(row: usize, column: usize) -> usize {
+const fn triangular(row: usize, column: usize) -> usize {
     if row >= column { row * (row + 1) / 2 + column } else { column * (column + 1) / 2 + row }
+}
+
+/// Of each of `PAIRS` the four entries of its block in an element, column by column.
+const ENTRIES: [[usize; BLOCK]; 6] = {
+    let mut entries = [[0; BLOCK]; 6];
+    let mut k = 0;
+    while k < 6 {
+        let (a, b) = PAIRS[k];
+        let (row, column) = (AXES * a, AXES * b);
+        entries[k] = [
+            triangular(row, column),
+            triangular(row + 1, column),
+            triangular(row, column + 1),
+            triangular(row + 1, column + 1),
+        ];
+        k += 1;
+    }
+    entries
+};
+
+/// What each of so many blocks gets from the triangles, given the blocks of each triangle.
+fn parts(blocks: usize, of_triangles: &[[Block; 6]]) -> (Vec<u32>, Vec<Part>) {
+    let mut starts = vec![0u32; blocks + 1];
+    for block in of_triangles.iter().flatten() {
+        starts[block.at as usize + 1] += 1;
+    }
+    for k in 0..blocks {
+        starts[k + 1] += starts[k];
+    }
+    let mut next = starts.clone();
+    let mut parts = vec![Part::default(); starts[blocks] as usize];
+    for (triangle, blocks) in of_triangles.iter().enumerate() {
+        for (pair, block) in blocks.iter().enumerate() {
+            let at = &mut next[block.at as usize];
+            // There are fewer triangles than 2^32, the matrix has refused more.
+            let (triangle, pair) = (triangle as u32, pair as u8);
+            parts[*at as usize] = Part { triangle, pair, turned: block.turned };
+            *at += 1;
+        }
+    }
+    (starts, parts)
 }
 
 impl Matrix {
@@ -54,8 +111,8 @@ impl Matrix {
     pub fn new(surface: &Surface, cliques: &[Vec<usize>]) -> Result<Self, SparseError> {
         let n = surface.vertex_count();
         let too_large = || SparseError::TooLarge(AXES * n);
-        // Of numbers of 32 bits: blocks are counted by them, some seven a vertex.
-        if n > u32::MAX as usize / 16 {
+        // Of numbers of 32 bits: blocks are counted by them, some seven a vertex, and their parts, some twelve.
+        if n > u32::MAX as usize / 32 {
             return Err(too_large());
         }
         let triangles: Vec<[usize; 3]> =
@@ -99,8 +156,9 @@ impl Matrix {
             let k = start[a] + list.partition_point(|&(_, other)| (other as usize) < b);
             Block { at: of_pair[k], turned: place[row] < place[column] }
         };
-        let of_triangles =
+        let of_triangles: Vec<[Block; 6]> =
             triangles.par_iter().map(|t| PAIRS.map(|(a, b)| block(t[a], t[b]))).collect();
+        let (starts, parts) = parts(pairs.len(), &of_triangles);
         let of_cliques = cliques
             .iter()
             .map(|clique| {
@@ -116,9 +174,11 @@ impl Matrix {
             vertices: n,
             factors,
             blocks,
-            triangles: of_triangles,
+            starts,
+            parts,
             cliques: of_cliques,
             diagonal,
+            spare: Mutex::default(),
         })
     }
 
@@ -144,15 +204,26 @@ impl Matrix {
         *d += entry(1, 1);
     }
 
-    /// Adds the triangles' parts, in order.
-    pub fn add_triangles(&self, values: &mut [f64], elements: &[Element]) {
-        for (element, blocks) in elements.iter().zip(&self.triangles) {
-            for (&block, &(a, b)) in blocks.iter().zip(&PAIRS) {
-                Self::add(values, block, |i, j| {
-                    element.stiffness[triangular(AXES * a + i, AXES * b + j)]
-                });
+    /// Sets the values to the sums of the triangles' parts, each in the triangles' order.
+    pub fn set_triangles(&self, values: &mut Vec<f64>, elements: &[Element]) {
+        /// Fewer blocks than this a task cost more than they save.
+        const PER_TASK: usize = 2048;
+        values.resize(self.entries(), 0.0);
+        values.par_chunks_mut(BLOCK * PER_TASK).enumerate().for_each(|(chunk, values)| {
+            let starts = self.starts[chunk * PER_TASK..].windows(2);
+            for (values, range) in values.chunks_exact_mut(BLOCK).zip(starts) {
+                let mut sum = [0.0; BLOCK];
+                for part in &self.parts[range[0] as usize..range[1] as usize] {
+                    let entries = &elements[part.triangle as usize].stiffness;
+                    let [a, b, c, d] = ENTRIES[usize::from(part.pair)].map(|at| entries[at]);
+                    let (low, high) = if part.turned { (c, b) } else { (b, c) };
+                    for (sum, entry) in sum.iter_mut().zip([a, low, high, d]) {
+                        *sum += entry;
+                    }
+                }
+                values.copy_from_slice(&sum);
             }
-        }
+        });
     }
 
     /// Adds s · c cᵀ for a row c over the coordinates (x₀, y₀, x₁, …) of a clique's vertices.
@@ -177,22 +248,39 @@ impl Matrix {
         sum / (AXES * self.vertices) as f64
     }
 
-    /// The factorization of these values into the room of an earlier one; the room again if the matrix is
-    /// not positive definite, or the job is cancelled.
+    /// The factorization of these values; `None` if they are not positive definite, or the job is cancelled.
     ///
     /// # Errors
     /// If memory runs out.
     pub fn factorize(
         &self,
         values: &[f64],
-        mut factor: Vec<f64>,
         progress: &dyn Progress,
-    ) -> Result<Result<SurfaceFactor, Vec<f64>>, SparseError> {
+    ) -> Result<Option<SurfaceFactor>, SparseError> {
+        let mut factor = self.spared(Vec::new());
         let more = self.factors.len().saturating_sub(factor.len());
         factor.try_reserve_exact(more).map_err(|_| SparseError::TooLarge(AXES * self.vertices))?;
         factor.resize(self.factors.len(), 0.0);
-        let positive = self.factors.factorize(values, &mut factor, progress);
-        Ok(if positive { Ok(SurfaceFactor(factor)) } else { Err(factor) })
+        if self.factors.factorize(values, &mut factor, progress) {
+            return Ok(Some(SurfaceFactor(factor)));
+        }
+        self.spared(factor);
+        Ok(None)
+    }
+
+    /// Takes back a factor that is no longer needed; its room serves for the next.
+    pub fn take_back(&self, factor: SurfaceFactor) {
+        self.spared(factor.0);
+    }
+
+    /// Keeps no room for another factor.
+    pub fn let_go(&self) {
+        self.spared(Vec::new());
+    }
+
+    /// What was spared, in exchange.
+    fn spared(&self, room: Vec<f64>) -> Vec<f64> {
+        std::mem::replace(&mut *self.spare.lock().unwrap_or_else(PoisonError::into_inner), room)
     }
 
     /// Solutions for right-hand sides, together: reading the factor is what a solve costs.
@@ -203,13 +291,6 @@ impl Matrix {
 
 /// A factorized matrix.
 pub struct SurfaceFactor(Vec<f64>);
-
-impl SurfaceFactor {
-    /// The room of the factor, for the next one.
-    pub fn into_room(self) -> Vec<f64> {
-        self.0
-    }
-}
 
 #[cfg(test)]
 mod tests {
@@ -245,8 +326,8 @@ mod tests {
             }
             elements.push(Element { stiffness });
         }
-        let mut values = vec![0.0; matrix.entries()];
-        matrix.add_triangles(&mut values, &elements);
+        let mut values = Vec::new();
+        matrix.set_triangles(&mut values, &elements);
         let row = [0.3, -0.7, 1.1, 0.2];
         matrix.add_square(&mut values, 0, &row, 2.0);
         let dof = |i: usize| 2 * far[i / 2] + i % 2;
@@ -265,7 +346,7 @@ mod tests {
         let wanted: Vec<f64> = (0..2 * n).map(|i| (i as f64).sin()).collect();
         let right: Vec<f64> =
             dense.iter().map(|row| row.iter().zip(&wanted).map(|(a, b)| a * b).sum()).collect();
-        let factor = matrix.factorize(&values, Vec::new(), &Silent).unwrap().ok().unwrap();
+        let factor = matrix.factorize(&values, &Silent).unwrap().unwrap();
         let x = matrix.solve(&factor, &[&right]);
         for (got, want) in x[0].iter().zip(&wanted) {
             assert!((got - want).abs() < 1e-10, "{got} {want}");
@@ -274,7 +355,8 @@ mod tests {
         for v in 0..n {
             matrix.add_diagonal(&mut values, v, -5.0);
         }
-        assert!(matrix.factorize(&values, factor.into_room(), &Silent).unwrap().is_err());
+        matrix.take_back(factor);
+        assert!(matrix.factorize(&values, &Silent).unwrap().is_none());
     }
 
     #[test]
@@ -304,8 +386,8 @@ mod tests {
             }
             elements.push(Element { stiffness });
         }
-        let mut values = vec![0.0; matrix.entries()];
-        matrix.add_triangles(&mut values, &elements);
+        let mut values = Vec::new();
+        matrix.set_triangles(&mut values, &elements);
         let row = [0.4, -0.9, -0.3, 0.8];
         for (k, pair) in sewn.iter().enumerate() {
             matrix.add_square(&mut values, k, &row, 50.0);
@@ -323,7 +405,7 @@ mod tests {
         let solve = |threads: usize| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| {
-                let factor = matrix.factorize(&values, Vec::new(), &Silent).unwrap().ok().unwrap();
+                let factor = matrix.factorize(&values, &Silent).unwrap().unwrap();
                 matrix.solve(&factor, &right)
             })
         };

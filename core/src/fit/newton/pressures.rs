@@ -18,8 +18,8 @@ use glam::DVec2;
 use crate::design::{Fabric, PressureModel};
 use crate::fit::FitInput;
 use crate::pressure::{
-    FLAT_CURVATURE, LocalCurvature, Reached, Stretch, Targets, ThreadTarget, Wish,
-    pressing_curvature, pressure_kpa, reached, warp_strain,
+    FLAT_CURVATURE, LocalCurvature, Reached, Reader, Stretch, Targets, ThreadTarget, Wish,
+    pressing_curvature, pressure_kpa, warp_strain,
 };
 
 /// α.
@@ -64,6 +64,7 @@ pub struct Answers {
 /// The threads with annotated points and their targets.
 pub struct Threads<'a> {
     input: &'a FitInput<'a>,
+    reader: Reader<'a>,
     /// The annotations of each thread, from the lowest thread.
     groups: Vec<Vec<usize>>,
     /// Eq. (3) for each.
@@ -84,6 +85,7 @@ impl<'a> Threads<'a> {
     pub fn new(input: &'a FitInput<'a>, coordinates: &[DVec2]) -> Self {
         let mut threads = Self {
             input,
+            reader: Reader::new(input.disk, input.annotations, input.parameters.curvature_radius),
             groups: Vec::new(),
             wanted: Vec::new(),
             asked: Vec::new(),
@@ -153,11 +155,6 @@ impl<'a> Threads<'a> {
         self.rounds == 0
     }
 
-    fn reached(&self, coordinates: &[DVec2]) -> Vec<Reached> {
-        let FitInput { disk, annotations, parameters, .. } = self.input;
-        reached(disk, coordinates, annotations, parameters.curvature_radius)
-    }
-
     /// The pattern has moved so far that it answers to the targets in another way.
     pub fn forget_answers(&mut self) {
         self.answers = None;
@@ -179,7 +176,7 @@ impl<'a> Threads<'a> {
         let reached = match known {
             Some(reached) => reached,
             None => {
-                own = self.reached(coordinates);
+                own = self.reader.read(coordinates);
                 &own
             }
         };
@@ -296,7 +293,7 @@ impl<'a> Threads<'a> {
         coordinates: &[DVec2],
         answers: impl Fn(&[Targets]) -> Vec<Vec<DVec2>>,
     ) -> Correction {
-        let here = self.reached(coordinates);
+        let here = self.reader.read(coordinates);
         self.rounds += 1;
         self.find(coordinates, Some(&here));
         let FitInput { annotations, fabric, pressure_model, .. } = *self.input;
@@ -339,7 +336,8 @@ impl<'a> Threads<'a> {
             for (&(i, step), moved) in solved.iter().zip(moved) {
                 let there: Vec<DVec2> =
                     coordinates.iter().zip(&moved).map(|(&p, &d)| p + d).collect();
-                for (k, there) in self.pressures(&self.reached(&there)).into_iter().enumerate() {
+                for (k, there) in self.pressures(&self.reader.read(&there)).into_iter().enumerate()
+                {
                     by_thread[i][k] = (there - got[k]) / step;
                 }
             }

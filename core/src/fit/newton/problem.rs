@@ -58,9 +58,9 @@ pub struct Solved {
 }
 
 impl Model {
-    /// The room of its factor, for the next one.
-    pub fn into_room(self) -> Vec<f64> {
-        self.factor.into_room()
+    /// What is factorized.
+    pub fn into_factor(self) -> SurfaceFactor {
+        self.factor
     }
 }
 
@@ -79,8 +79,6 @@ pub struct Place<'a> {
 pub struct Room {
     elements: Vec<Element>,
     values: Vec<f64>,
-    /// Of a factor.
-    pub factor: Vec<f64>,
 }
 
 impl<'a> Problem<'a> {
@@ -166,9 +164,7 @@ impl<'a> Problem<'a> {
         let Solver { triangles, matrix, .. } = self.solver;
         let Room { elements, values, .. } = room;
         triangles.elements(at.coordinates, &self.springs, at.wanted, at.turning, order, elements);
-        values.clear();
-        values.resize(matrix.entries(), 0.0);
-        matrix.add_triangles(values, elements);
+        matrix.set_triangles(values, elements);
         let mean = matrix.mean_diagonal(values);
         for v in 0..at.coordinates.len() {
             matrix.add_diagonal(values, v, HOLD * mean);
@@ -182,18 +178,13 @@ impl<'a> Problem<'a> {
         &self,
         coordinates: &[DVec2],
         courses: Courses,
-        room: &mut Room,
+        room: &Room,
         force: Option<&[f64]>,
     ) -> Result<Option<(Model, Vec<f64>)>, FitError> {
         let matrix = &self.solver.matrix;
-        let taken = std::mem::take(&mut room.factor);
-        let factor = match matrix.factorize(&room.values, taken, self.progress)? {
-            Ok(factor) => factor,
-            Err(taken) => {
-                self.ask()?;
-                room.factor = taken;
-                return Ok(None);
-            }
+        let Some(factor) = matrix.factorize(&room.values, self.progress)? else {
+            self.ask()?;
+            return Ok(None);
         };
         self.ask()?;
         let (row, slide) = (self.lean(coordinates.len()), self.shares(coordinates));

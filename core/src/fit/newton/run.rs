@@ -206,7 +206,7 @@ impl<'a> Run<'a> {
                 break Stopped::MaxIterations;
             }
         };
-        let misfit = self.misfit(&self.wanted(&targets));
+        let misfit = self.history.last().map(|entry| entry.misfit).unwrap_or_default();
         let fit = Fit {
             coordinates: self.coordinates.clone(),
             woven: None,
@@ -352,11 +352,11 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// The room of a Hessian for the next, unless an earlier fit still has it.
+    /// The room of a Hessian for the next, unless an earlier fit still needs it.
     fn make_room(&mut self, model: Arc<Model>) {
         self.resumed = false;
         if let Ok(model) = Arc::try_unwrap(model) {
-            self.room.factor = model.into_room();
+            self.problem.solver.matrix.take_back(model.into_factor());
         }
     }
 
@@ -409,6 +409,9 @@ impl<'a> Run<'a> {
             self.forget();
         }
         let energy = self.energy_of_free_seams()?;
+        if last {
+            self.problem.solver.matrix.let_go();
+        }
         let Self { model, problem, threads, .. } = self;
         let kept = model.map(|model| Kept {
             model,
@@ -435,6 +438,7 @@ impl<'a> Run<'a> {
         let mut forces = triangles.gradient(&self.coordinates, &springs, &wanted, &turning);
         forces.iter_mut().for_each(|f| *f = -*f);
         let motion = self.problem.answers(&model, &[&forces]).swap_remove(0);
+        self.problem.solver.matrix.take_back(model.into_factor());
         let length = triangles.longest_step(&self.coordinates, &motion);
         let there: Vec<DVec2> =
             self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + length * d).collect();

@@ -26,11 +26,12 @@ struct Grid {
 }
 
 impl Grid {
-    /// Over triangles with these middles.
-    fn over(middles: &[DVec2], step: f64) -> Self {
-        let first = middles.first().copied().unwrap_or_default();
-        let (low, high) =
-            middles.iter().fold((first, first), |(low, high), &p| (low.min(p), high.max(p)));
+    /// Over these triangles.
+    fn over(triangles: &[Directions], step: f64) -> Self {
+        let first = triangles.first().map(|t| t.middle).unwrap_or_default();
+        let (low, high) = triangles
+            .iter()
+            .fold((first, first), |(low, high), t| (low.min(t.middle), high.max(t.middle)));
         /// No more grid points than this along either side, for patterns without measure.
         const MOST: f64 = 1000.0;
         let step = step.max((high - low).max_element() / MOST);
@@ -55,58 +56,70 @@ impl Grid {
     }
 }
 
-/// The means of two vector fields round every triangle, over `step` mm of the pattern; the triangles
-/// have these middles (mm) and areas (mm²) there.
-pub fn means(
-    middles: &[DVec2],
-    areas: &[f64],
-    fields: &[[DVec3; 2]],
-    step: f64,
-) -> Vec<[DVec3; 2]> {
-    /// Parts that are gathered side by side; a fixed number, so that sums do not depend on threads.
-    const PARTS: usize = 8;
-    let grid = Grid::over(middles, step);
-    let size = (middles.len() / PARTS).max(1024);
-    type Sums = Vec<(f64, [DVec3; 2])>;
-    let parts: Vec<Sums> = middles
-        .par_chunks(size)
-        .zip(areas.par_chunks(size).zip(fields.par_chunks(size)))
-        .map(|(middles, (areas, fields))| {
-            let mut sums = vec![(0.0, [DVec3::ZERO; 2]); grid.columns * grid.rows];
-            for ((&middle, &area), field) in middles.iter().zip(areas).zip(fields) {
-                for (at, w) in grid.corners(middle) {
-                    let (weight, sum) = &mut sums[at];
-                    *weight += w * area;
-                    sum[0] += w * area * field[0];
-                    sum[1] += w * area * field[1];
+/// The threads of a triangle in the pattern.
+#[derive(Debug, Clone, Copy)]
+pub struct Directions {
+    /// The triangle's middle in the pattern, in mm.
+    pub middle: DVec2,
+    /// Its area there, in mm².
+    pub area: f64,
+    /// Its warp and weft directions on the worn surface.
+    pub threads: [DVec3; 2],
+}
+
+/// Area and directions gathered at a point.
+type Sum = (f64, [DVec3; 2]);
+
+/// The means of the threads' directions round every place.
+pub struct Means {
+    grid: Grid,
+    at: Vec<[DVec3; 2]>,
+}
+
+impl Means {
+    /// Over `step` mm of the pattern.
+    pub fn new(triangles: &[Directions], step: f64) -> Self {
+        /// Parts that are gathered side by side; a fixed number, so that sums do not depend on threads.
+        const PARTS: usize = 8;
+        /// Fewer points than this a task cost more than they save.
+        const PER_TASK: usize = 512;
+        let grid = Grid::over(triangles, step);
+        let size = triangles.len().div_ceil(PARTS).max(1024);
+        let parts: Vec<Vec<Sum>> = triangles
+            .par_chunks(size)
+            .map(|triangles| {
+                let mut sums = vec![(0.0, [DVec3::ZERO; 2]); grid.columns * grid.rows];
+                for Directions { middle, area, threads } in triangles {
+                    for (at, w) in grid.corners(*middle) {
+                        let (weight, sum) = &mut sums[at];
+                        *weight += w * area;
+                        sum[0] += w * area * threads[0];
+                        sum[1] += w * area * threads[1];
+                    }
                 }
-            }
-            sums
-        })
-        .collect();
-    let mut parts = parts.into_iter();
-    let mut sums = parts.next().unwrap_or_default();
-    for part in parts {
-        for ((weight, sum), (more, other)) in sums.iter_mut().zip(part) {
-            *weight += more;
-            sum[0] += other[0];
-            sum[1] += other[1];
-        }
-    }
-    for (weight, sum) in &mut sums {
-        if *weight > 0.0 {
-            *sum = sum.map(|s| s / *weight);
-        }
-    }
-    middles
-        .par_iter()
-        .with_min_len(4096)
-        .map(|&middle| {
-            grid.corners(middle).iter().fold([DVec3::ZERO; 2], |mean, &(at, w)| {
-                [mean[0] + w * sums[at].1[0], mean[1] + w * sums[at].1[1]]
+                sums
             })
+            .collect();
+        let at = (0..grid.columns * grid.rows)
+            .into_par_iter()
+            .with_min_len(PER_TASK)
+            .map(|k| {
+                let (weight, sum) = parts.iter().fold((0.0, [DVec3::ZERO; 2]), |whole, part| {
+                    let (weight, sum) = &part[k];
+                    (whole.0 + weight, [whole.1[0] + sum[0], whole.1[1] + sum[1]])
+                });
+                if weight > 0.0 { sum.map(|s| s / weight) } else { sum }
+            })
+            .collect();
+        Self { grid, at }
+    }
+
+    /// Those round a place.
+    pub fn round(&self, place: DVec2) -> [DVec3; 2] {
+        self.grid.corners(place).iter().fold([DVec3::ZERO; 2], |mean, &(at, w)| {
+            [mean[0] + w * self.at[at][0], mean[1] + w * self.at[at][1]]
         })
-        .collect()
+    }
 }
 
 #[cfg(test)]
@@ -118,28 +131,36 @@ mod tests {
         (0..60).flat_map(|i| (0..80).map(move |j| DVec2::new(f64::from(j), f64::from(i)))).collect()
     }
 
+    /// Means at the middles of triangles with these threads, each of the area 1.
+    fn means(
+        middles: &[DVec2],
+        threads: impl Fn(DVec2) -> [DVec3; 2],
+        step: f64,
+    ) -> Vec<[DVec3; 2]> {
+        let triangles: Vec<Directions> = middles
+            .iter()
+            .map(|&middle| Directions { middle, area: 1.0, threads: threads(middle) })
+            .collect();
+        let means = Means::new(&triangles, step);
+        middles.iter().map(|&middle| means.round(middle)).collect()
+    }
+
     #[test]
     fn a_constant_stays_and_a_zigzag_goes() {
-        let middles = middles();
-        let areas = vec![1.0; middles.len()];
         let constant = DVec3::new(1.0, 2.0, 3.0);
-        let fields: Vec<[DVec3; 2]> = middles
-            .iter()
-            .map(|p| [constant, DVec3::Y * if p.x % 2.0 == 0.0 { 1.0 } else { -1.0 }])
-            .collect();
-        let means = means(&middles, &areas, &fields, 5.0);
+        let zigzag = |p: DVec2| DVec3::Y * if p.x % 2.0 == 0.0 { 1.0 } else { -1.0 };
+        let means = means(&middles(), |p| [constant, zigzag(p)], 5.0);
         assert!(means.iter().all(|mean| mean[0].distance(constant) < 1e-12));
         assert!(means[30 * 80 + 40][1].length() < 0.05, "{}", means[30 * 80 + 40][1]);
     }
 
     #[test]
     fn a_linear_field_stays_in_the_middle() {
+        let linear = |p: DVec2| [p.extend(0.0) / 10.0, DVec3::ZERO];
         let middles = middles();
-        let areas = vec![1.0; middles.len()];
-        let linear: Vec<[DVec3; 2]> =
-            middles.iter().map(|p| [p.extend(0.0) / 10.0, DVec3::ZERO]).collect();
-        let means = means(&middles, &areas, &linear, 5.0);
+        let means = means(&middles, linear, 5.0);
         let at = 30 * 80 + 40;
-        assert!(means[at][0].distance(linear[at][0]) < 0.02, "{:?} {:?}", means[at], linear[at]);
+        let there = linear(middles[at])[0];
+        assert!(means[at][0].distance(there) < 0.02, "{:?} {there:?}", means[at]);
     }
 }

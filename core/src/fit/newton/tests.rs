@@ -274,10 +274,10 @@ fn the_marker_line_is_vertical_and_no_triangle_is_turned_over() {
 fn wanted_pressures_are_met_and_both_targets_are_reported() {
     let case = barrel(28, 48, false);
     let fit = case.fit();
-    for (k, reached) in
-        crate::pressure::reached(&case.disk, &fit.coordinates, &case.annotations, 10.0)
-            .iter()
-            .enumerate()
+    for (k, reached) in crate::pressure::Reader::new(&case.disk, &case.annotations, 10.0)
+        .read(&fit.coordinates)
+        .iter()
+        .enumerate()
     {
         let kpa = crate::pressure::pressure_kpa(
             PressureModel::Laplace,

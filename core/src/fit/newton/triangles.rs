@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::element::{
     Gradients, Order, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
 };
-use super::straight::means;
+use super::straight::{Directions, Means};
 use crate::fit::Misfit;
 use crate::parameterize::{first_root, rest_triangles};
 use crate::pressure::{StrainCourse, Targets};
@@ -27,7 +27,13 @@ struct Worn {
 }
 
 /// All of them.
-pub struct Triangles(Vec<Worn>);
+pub struct Triangles {
+    worn: Vec<Worn>,
+    /// The corners at each vertex: those of v are `corners[starts[v]..starts[v + 1]]`, in order, each as three
+    /// times its triangle plus its place there.
+    starts: Vec<u32>,
+    corners: Vec<u32>,
+}
 
 /// The wanted stretches along the pattern, as the fit counts weft coordinates.
 pub struct Wanted {
@@ -85,24 +91,37 @@ impl Triangles {
     pub fn new(surface: &Surface) -> Self {
         let rest = rest_triangles(surface);
         let ids: Vec<_> = surface.triangle_ids().collect();
-        Self(
-            ids.par_iter()
-                .with_min_len(PER_TASK)
-                .zip(&rest)
-                .map(|(&t, rest)| {
-                    let [a, b, c] = surface.corners(t);
-                    let along = (b - a).normalize_or_zero();
-                    let across = (c - a).reject_from(along).normalize_or_zero();
-                    Worn {
-                        // A surface has fewer than 2^32 vertices: the matrix has refused more.
-                        corners: surface.triangle(t).map(|v| v.index() as u32),
-                        hats: rest.gradients(),
-                        area: rest.area,
-                        frame: [along, across],
-                    }
-                })
-                .collect(),
-        )
+        let worn: Vec<Worn> = ids
+            .par_iter()
+            .with_min_len(PER_TASK)
+            .zip(&rest)
+            .map(|(&t, rest)| {
+                let [a, b, c] = surface.corners(t);
+                let along = (b - a).normalize_or_zero();
+                let across = (c - a).reject_from(along).normalize_or_zero();
+                Worn {
+                    // A surface has fewer than 2^28 vertices: the matrix has refused more.
+                    corners: surface.triangle(t).map(|v| v.index() as u32),
+                    hats: rest.gradients(),
+                    area: rest.area,
+                    frame: [along, across],
+                }
+            })
+            .collect();
+        let vertices = surface.vertex_count();
+        let mut starts = vec![0u32; vertices + 1];
+        worn.iter().flat_map(|worn| worn.corners).for_each(|v| starts[v as usize + 1] += 1);
+        for v in 0..vertices {
+            starts[v + 1] += starts[v];
+        }
+        let mut next = starts.clone();
+        let mut corners = vec![0; 3 * worn.len()];
+        for (corner, v) in worn.iter().flat_map(|worn| worn.corners).enumerate() {
+            let at = &mut next[v as usize];
+            corners[*at as usize] = corner as u32;
+            *at += 1;
+        }
+        Self { worn, starts, corners }
     }
 
     fn gradients(worn: &Worn, coordinates: &[DVec2]) -> (Gradients, f64) {
@@ -113,7 +132,7 @@ impl Triangles {
     /// Sums over all triangles in order, the same on any number of threads.
     fn sums<const N: usize>(&self, of: impl Fn(usize, &Worn) -> [f64; N] + Sync) -> [f64; N] {
         let parts: Vec<[f64; N]> = self
-            .0
+            .worn
             .par_chunks(PER_TASK)
             .enumerate()
             .map(|(chunk, part)| {
@@ -174,14 +193,8 @@ impl Triangles {
         wanted: &Wanted,
         spacing: f64,
     ) -> Vec<Turning> {
-        struct Here {
-            middle: DVec2,
-            area: f64,
-            threads: [DVec3; 2],
-            push: [f64; 2],
-        }
-        let here: Vec<Here> = self
-            .0
+        let (here, push): (Vec<Directions>, Vec<[f64; 2]>) = self
+            .worn
             .par_iter()
             .with_min_len(PER_TASK)
             .map(|worn| {
@@ -194,33 +207,31 @@ impl Triangles {
                 };
                 let [u, v] = worn.frame;
                 let p = worn.corners.map(|v| coordinates[v as usize]);
-                Here {
+                let here = Directions {
                     middle: (p[0] + p[1] + p[2]) / 3.0,
                     area: d * worn.area,
                     threads: [(g.y.y * u - g.y.x * v) / ny, (g.x.x * v - g.x.y * u) / nx],
-                    push: [
-                        push(springs.warp, ny / d, wanted.warp[0], ny),
-                        push(springs.weft, nx / d, wanted.weft, nx),
-                    ],
-                }
+                };
+                let push = [
+                    push(springs.warp, ny / d, wanted.warp[0], ny),
+                    push(springs.weft, nx / d, wanted.weft, nx),
+                ];
+                (here, push)
             })
-            .collect();
-        let middles: Vec<DVec2> = here.iter().map(|h| h.middle).collect();
-        let areas: Vec<f64> = here.iter().map(|h| h.area).collect();
-        let threads: Vec<[DVec3; 2]> = here.iter().map(|h| h.threads).collect();
-        let means = means(&middles, &areas, &threads, spacing);
-        self.0
+            .unzip();
+        let means = Means::new(&here, spacing);
+        self.worn
             .par_iter()
             .with_min_len(PER_TASK)
             .zip(&here)
-            .zip(&means)
-            .map(|((worn, here), mean)| {
+            .zip(&push)
+            .map(|((worn, here), &stiffness)| {
                 let in_frame = |mean: DVec3| {
                     let [u, v] = worn.frame;
                     DVec2::new(u.dot(mean), v.dot(mean)).normalize_or_zero()
                 };
-                let [warp, weft] = mean.map(in_frame);
-                Turning { warp, weft, stiffness: here.push }
+                let [warp, weft] = means.round(here.middle).map(in_frame);
+                Turning { warp, weft, stiffness }
             })
             .collect()
     }
@@ -235,7 +246,7 @@ impl Triangles {
         order: Order,
         elements: &mut Vec<Element>,
     ) {
-        self.0
+        self.worn
             .par_iter()
             .with_min_len(PER_TASK)
             .zip(turning)
@@ -263,7 +274,7 @@ impl Triangles {
         turning: &[Turning],
     ) -> Vec<f64> {
         let forces: Vec<[f64; 6]> = self
-            .0
+            .worn
             .par_iter()
             .enumerate()
             .with_min_len(PER_TASK)
@@ -277,25 +288,25 @@ impl Triangles {
                 force_at_corners(&slope, &worn.hats, worn.area)
             })
             .collect();
-        self.gather(coordinates.len(), forces.iter())
-    }
-
-    /// Forces at corners summed at the vertices, in order.
-    fn gather<'a>(&self, vertices: usize, forces: impl Iterator<Item = &'a [f64; 6]>) -> Vec<f64> {
-        let mut sums = vec![0.0; 2 * vertices];
-        for (worn, force) in self.0.iter().zip(forces) {
-            for (k, v) in worn.corners.iter().enumerate() {
-                sums[2 * *v as usize] += force[2 * k];
-                sums[2 * *v as usize + 1] += force[2 * k + 1];
-            }
-        }
+        // At every vertex the corners in order, whatever the threads.
+        let mut sums = vec![0.0; 2 * coordinates.len()];
+        sums.par_chunks_mut(2).zip(self.starts.par_windows(2)).with_min_len(PER_TASK).for_each(
+            |(sum, range)| {
+                for &corner in &self.corners[range[0] as usize..range[1] as usize] {
+                    let force = &forces[corner as usize / 3];
+                    let k = 2 * (corner as usize % 3);
+                    sum[0] += force[k];
+                    sum[1] += force[k + 1];
+                }
+            },
+        );
         sums
     }
 
     /// A third of the pattern's area round each vertex, in mm².
     pub fn shares(&self, coordinates: &[DVec2]) -> Vec<f64> {
         let mut shares = vec![0.0; coordinates.len()];
-        for worn in &self.0 {
+        for worn in &self.worn {
             let area = worn.area * Self::gradients(worn, coordinates).0.determinant();
             for v in worn.corners {
                 shares[v as usize] += area / 3.0;
@@ -306,9 +317,9 @@ impl Triangles {
 
     /// Shares of the vertices in the worn area.
     pub fn worn_shares(&self, vertices: usize) -> Vec<f64> {
-        let whole: f64 = self.0.iter().map(|worn| worn.area).sum();
+        let whole: f64 = self.worn.iter().map(|worn| worn.area).sum();
         let mut shares = vec![0.0; vertices];
-        for worn in &self.0 {
+        for worn in &self.worn {
             for v in worn.corners {
                 shares[v as usize] += worn.area / (3.0 * whole);
             }
@@ -321,7 +332,7 @@ impl Triangles {
         /// Share of the way to the first collapse that a step may go.
         const SHORT_OF_COLLAPSE: f64 = 0.8;
         let parts: Vec<f64> = self
-            .0
+            .worn
             .par_chunks(PER_TASK)
             .map(|part| {
                 part.iter().fold(f64::INFINITY, |least, worn| {
