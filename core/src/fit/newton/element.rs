@@ -19,7 +19,7 @@
 
 use glam::DVec2;
 
-use super::eigen::{Square, eigen, positive};
+use super::eigen::{Square, eigen, negative, positive};
 use crate::sparse::Element;
 
 /// Number of local variables: ∇x (2), ∇y (2), c.
@@ -241,7 +241,14 @@ impl Bend {
     pub fn make_convex(&mut self) {
         let whole: Square =
             std::array::from_fn(|i| std::array::from_fn(|j| self.0[i.max(j)][i.min(j)]));
-        if positive(whole) {
+        let Err(direction) = positive(whole) else { return };
+        // Mostly one direction is negative, and soon found.
+        if let Some((value, vector)) = negative(&whole, direction) {
+            for i in 0..GRADIENTS {
+                for j in 0..=i {
+                    self.0[i][j] -= value * vector[i] * vector[j];
+                }
+            }
             return;
         }
         let (values, vectors) = eigen(whole);

@@ -59,7 +59,7 @@ pub struct Kept {
     model: Arc<Model>,
     springs: Springs,
     upright: Vec<(usize, f64)>,
-    answers: Option<Answers>,
+    answers: Option<Arc<Answers>>,
 }
 
 impl std::fmt::Debug for Kept {

@@ -13,6 +13,8 @@
 //! keeps a thread that does not answer (at a free edge, say) from being pulled to the end of its range
 //! for nothing; α is so small that a thread which answers by half is off by 0.4 %.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::design::{Fabric, PressureModel};
@@ -53,12 +55,15 @@ impl Correction {
     }
 }
 
-/// How the pressures answer to the targets.
+/// How pressures and pattern answer to the targets.
+#[derive(Clone)]
 pub struct Answers {
     /// The annotations of each thread.
     groups: Vec<Vec<usize>>,
-    /// By thread then by annotation, in kPa per strain.
-    by_thread: Vec<Vec<f64>>,
+    /// Pressures by thread then by annotation, in kPa per strain.
+    pressures: Vec<Vec<f64>>,
+    /// Motions of the vertices by thread, in mm per strain; none where they were not solved for.
+    motions: Vec<Vec<DVec2>>,
 }
 
 /// The threads with annotated points and their targets.
@@ -72,8 +77,7 @@ pub struct Threads<'a> {
     /// The corrected target of each.
     asked: Vec<Option<f64>>,
     wishes: Vec<Wish>,
-    /// How the pressures answer to the targets, by thread then by annotation, in kPa per strain.
-    answers: Option<Vec<Vec<f64>>>,
+    answers: Option<Arc<Answers>>,
     rounds: usize,
 }
 
@@ -100,10 +104,8 @@ impl<'a> Threads<'a> {
     /// Continues with the targets of an earlier fit where it has one for the same annotation, and with its
     /// answers if it is still the same threads that were annotated. Whether the answers serve: then the
     /// targets are the earlier fit's and are to be corrected before the first step.
-    pub fn resume(&mut self, earlier: &Targets, answers: Option<&Answers>) -> bool {
-        self.answers = answers
-            .filter(|answers| answers.groups == self.groups)
-            .map(|answers| answers.by_thread.clone());
+    pub fn resume(&mut self, earlier: &Targets, answers: Option<&Arc<Answers>>) -> bool {
+        self.answers = answers.filter(|answers| answers.groups == self.groups).map(Arc::clone);
         let limit = self.input.fabric.max_strain;
         for (group, asked) in self.groups.iter().zip(&mut self.asked) {
             let before = earlier.threads.iter().find(|t| t.annotations == *group);
@@ -121,8 +123,8 @@ impl<'a> Threads<'a> {
     }
 
     /// The answers, for the next fit.
-    pub fn into_answers(self) -> Option<Answers> {
-        Some(Answers { groups: self.groups, by_thread: self.answers? })
+    pub fn into_answers(self) -> Option<Arc<Answers>> {
+        self.answers
     }
 
     /// Whether there are targets to correct.
@@ -143,11 +145,18 @@ impl<'a> Threads<'a> {
         }
     }
 
-    /// Changes the targets.
-    pub fn take(&mut self, correction: &Correction) {
+    /// Changes the targets; how the vertices move with them, in mm, as far as that is known.
+    pub fn take(&mut self, correction: &Correction) -> Vec<DVec2> {
         let changed: Vec<f64> =
             self.asked().zip(&correction.changes).map(|(asked, change)| asked + change).collect();
         self.ask(changed.into_iter());
+        let motions = self.answers.iter().flat_map(|answers| &answers.motions);
+        let mut whole = Vec::new();
+        for (motion, change) in motions.zip(&correction.changes).filter(|(m, _)| !m.is_empty()) {
+            whole.resize(motion.len(), DVec2::ZERO);
+            whole.iter_mut().zip(motion).for_each(|(sum, &m)| *sum += *change * m);
+        }
+        whole
     }
 
     /// Whether no target has been corrected yet.
@@ -325,25 +334,28 @@ impl<'a> Threads<'a> {
                     self.with(coordinates, &other)
                 })
                 .collect();
-            let mut by_thread = vec![vec![0.0; annotations.len()]; count];
+            let mut pressures = vec![vec![0.0; annotations.len()]; count];
             if count > MOST_SOLVED {
-                for (group, by_annotation) in self.groups.iter().zip(&mut by_thread) {
-                    group.iter().for_each(|&k| by_annotation[k] = own(k));
+                for (group, pressures) in self.groups.iter().zip(&mut pressures) {
+                    group.iter().for_each(|&k| pressures[k] = own(k));
                 }
             }
             // A few at a time, between which the job can be cancelled.
             let moved = others.chunks(AT_ONCE).flat_map(answers);
+            let mut motions = vec![Vec::new(); count];
             for (&(i, step), moved) in solved.iter().zip(moved) {
                 let there: Vec<DVec2> =
                     coordinates.iter().zip(&moved).map(|(&p, &d)| p + d).collect();
                 for (k, there) in self.pressures(&self.reader.read(&there)).into_iter().enumerate()
                 {
-                    by_thread[i][k] = (there - got[k]) / step;
+                    pressures[i][k] = (there - got[k]) / step;
                 }
+                motions[i] = moved.into_iter().map(|d| d / step).collect();
             }
-            self.answers = Some(by_thread);
+            let groups = self.groups.clone();
+            self.answers = Some(Arc::new(Answers { groups, pressures, motions }));
         }
-        let answers = self.answers.as_deref().unwrap_or_default();
+        let answers = self.answers.as_ref().map_or(&[][..], |answers| &answers.pressures);
         let mut problem = LeastSquares::new(count);
         for k in (0..annotations.len()).filter(|&k| counts[k]) {
             let row: Vec<f64> = (0..count).map(|i| answers[i][k]).collect();

@@ -391,11 +391,26 @@ impl<'a> Run<'a> {
 
     /// Corrects them.
     fn take(&mut self, correction: &Correction) {
-        if correction.counts() {
-            // The next step is not to be measured against the last.
-            self.last = f64::INFINITY;
+        let motion = self.threads.take(correction);
+        if !correction.counts() {
+            return;
         }
-        self.threads.take(correction);
+        // The next step is not to be measured against the last.
+        self.last = f64::INFINITY;
+        let triangles = &self.problem.solver.triangles;
+        if motion.is_empty() || triangles.longest_step(&self.coordinates, &motion) < 1.0 {
+            return;
+        }
+        // The vertices go along at once, unless the answers are from a place too far away.
+        let there: Vec<DVec2> =
+            self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + d).collect();
+        let value = |coordinates: &[DVec2]| {
+            let wanted = self.wanted(&self.threads.targets(coordinates));
+            self.problem.value(&Place { coordinates, wanted: &wanted, turning: &[] })
+        };
+        if value(&there) < value(&self.coordinates) {
+            self.coordinates = there;
+        }
     }
 
     /// J_E without the condition that sewn edges have equal lengths, in N·mm, where there are any; and what
