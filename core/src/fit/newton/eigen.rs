@@ -60,8 +60,8 @@ fn dot(a: &[f64; SIZE], b: &[f64; SIZE]) -> f64 {
 pub fn negative(a: &Square, direction: [f64; SIZE]) -> Option<(f64, [f64; SIZE])> {
     /// Steps.
     const MOST: usize = 5;
-    /// Of the matrix's square norm: the eigenvalue is then right to eight digits, its error being square.
-    const LEFT: f64 = 1e-8;
+    /// Of the matrix's square norm: the eigenvector is then right to eight digits.
+    const LEFT: f64 = 1e-16;
     let unit = |v: [f64; SIZE]| {
         let by = 1.0 / dot(&v, &v).sqrt();
         v.map(|x| x * by)

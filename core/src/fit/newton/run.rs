@@ -26,6 +26,9 @@ const NEAR_ENERGY: f64 = 0.02;
 /// fabric is then still on its way, and goes to another place at no cost.
 const FIRST_MM: f64 = 35.0;
 
+/// At rest the acceleration, too, moves no vertex by more than the tolerance times this.
+const FURTHER: f64 = 2.0;
+
 /// Steps that move no vertex by more than this are taken as they are: what follows the fabric (threads,
 /// turning springs, a seam's course) makes the energy an uncertain judge of them.
 const TRUSTED_MM: f64 = 1.0;
@@ -188,20 +191,19 @@ impl<'a> Run<'a> {
             let correction = (self.model.is_some() && self.threads.corrects() && self.ripe(&step))
                 .then(|| self.correction());
             let settled = correction.as_ref().map_or(!self.threads.corrects(), |c| c.settled);
-            if step.largest < parameters.newton_tolerance && settled {
-                targets = self.threads.targets(&self.coordinates);
-                self.record(&targets);
-                break Stopped::Gradient;
-            }
+            let rests = step.largest < parameters.newton_tolerance && settled;
             match correction {
-                Some(correction) => self.take(&correction),
+                Some(correction) if !rests => self.take(&correction),
+                Some(_) => {}
                 None => self.threads.follow(&self.coordinates),
             }
-            if advance == Advance::Trusted {
-                self.accelerate(&before);
-            }
+            let further =
+                if advance == Advance::Trusted { self.accelerate(&before) } else { step.largest };
             targets = self.threads.targets(&self.coordinates);
             self.record(&targets);
+            if rests && further < FURTHER * parameters.newton_tolerance {
+                break Stopped::Gradient;
+            }
             if self.iterations >= parameters.newton_steps || advance == Advance::Nowhere {
                 break Stopped::MaxIterations;
             }
@@ -295,8 +297,9 @@ impl<'a> Run<'a> {
         coordinates.chain(self.threads.asked().map(|asked| self.scale * asked)).collect()
     }
 
-    /// Goes further, or less far, than from `before` to here.
-    fn accelerate(&mut self, before: &[f64]) {
+    /// Goes further, or less far, than from `before` to here; how far that wants to move a vertex, in mm: a
+    /// motion that comes to its end by small steps alone has as long a way to go.
+    fn accelerate(&mut self, before: &[f64]) -> f64 {
         let step: Vec<f64> = self.state().iter().zip(before).map(|(to, from)| to - from).collect();
         let taken = self.anderson.step(before, &step);
         let coordinates = 2 * self.coordinates.len();
@@ -307,11 +310,12 @@ impl<'a> Run<'a> {
         let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
         if largest >= TRUSTED_MM || self.problem.solver.triangles.longest_step(&from, &motion) < 1.0
         {
-            return;
+            return largest;
         }
         self.coordinates = from.iter().zip(&motion).map(|(&p, &d)| p + d).collect();
         let targets = before[coordinates..].iter().zip(&taken[coordinates..]);
         self.threads.ask(targets.map(|(from, step)| (from + step) / self.scale));
+        largest
     }
 
     /// Moves the vertices.
