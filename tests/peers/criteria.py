@@ -52,10 +52,13 @@ def judge(limbs: list[dict[str, Any]], whole: list[dict[str, Any]]) -> list[dict
                 f"ARAP takes {ratio:.2f} of ours",
                 ratio > 1.0 if sure else None,
             )
-        ratio = (limb.get("diffusion") or {}).get("ratio")
-        if ratio is not None:
+        for slow in limb["diffusion"]:
+            ratio = slow.get("ratio")
+            if ratio is None or not slow["as_fine"]:
+                continue
             say(
-                f"{at}: {DIFFUSION_RATIO:.0f} times faster than our diffusion, to the same J_E",
+                f"{at}: {DIFFUSION_RATIO:.0f} times faster than our diffusion, to the same J_E, "
+                "its threads as far apart as the mesh's vertices",
                 f"{ratio:.0f} times",
                 ratio >= DIFFUSION_RATIO if sure else None,
             )

@@ -81,17 +81,12 @@ class Run:
             return float(fit["energy"] / (cells * fit["spacing_mm"] ** 2))
         return float(fit["energy"] / self.report["pattern"]["area_mm2"])
 
-    def down_at(self, density: float) -> tuple[int, float] | None:
-        """Newton's first step with J_E over the area at most `density` (N/mm), and its seconds.
-
-        The report does not say when a step was done: all steps are taken to last alike.
-        """
+    def down_at(self, density: float) -> int | None:
+        """Newton's first step with J_E over the area at most `density` (N/mm)."""
         area = self.report["pattern"]["area_mm2"]
-        steps = self.report["fit"]["iterations"]
         for entry in self.report["fit"]["history"]:
             if entry["energy"] / area <= density:
-                step = max(int(entry["iteration"]), 1)
-                return step, self.fit.median * step / max(steps, 1)
+                return max(int(entry["iteration"]), 1)
         return None
 
 

@@ -21,6 +21,9 @@ from typing import Any
 NEEDED = ("numpy", "scipy", "igl")
 REQUIREMENTS = Path(__file__).with_name("requirements.txt")
 
+# The program's default distance of the diffusion's threads, and the triangles of a limb with edges as long.
+EDGE_MM = 5.0, 5_000
+
 try:
     import numpy as np
 
@@ -89,8 +92,9 @@ def arguments() -> argparse.Namespace:
     parser.add_argument(
         "--diffusion-spacing",
         type=float,
+        nargs="+",
         metavar="MM",
-        help="distance of the diffusion's threads; default: the program's",
+        help="distances of the diffusion's threads; default: the program's, and the mesh's edges",
     )
     parser.add_argument("--repeats", type=int, default=3, help="runs of each, for the median")
     parser.add_argument(
@@ -216,29 +220,38 @@ def measure_limb(
     ]
 
     rows += peers(mesh, heights, strains, wanted, given)
-    diffusion = None
+    diffusion = []
     if size <= given.diffusion_up_to:
-        options = [
-            *(["--plateau", f"{given.diffusion_plateau:g}"] if given.diffusion_plateau else []),
-            *(["--spacing", f"{given.diffusion_spacing:g}"] if given.diffusion_spacing else []),
-        ]
-        slow = program.flatten(
-            limb, "diffusion", "--method", "diffusion", *options, *ours.PAPERS, **often
-        )
-        slow_mesh = slow.mesh()
-        target = np.interp(slow_mesh.pattern[:, 1], slow.rows("y_mm"), slow.rows("strain"))
-        rows.append(
-            figures(
-                slow_mesh,
-                slow_mesh.pattern,
-                slow.fit,
+        edge = EDGE_MM[0] * (EDGE_MM[1] / size) ** 0.5
+        plateau = given.diffusion_plateau
+        options = ["--plateau", f"{plateau:g}"] if plateau else []
+        for spacing in given.diffusion_spacing or dict.fromkeys([EDGE_MM[0], edge]):
+            slow = program.flatten(
+                limb,
+                f"diffusion-{spacing:g}",
+                "--method",
                 "diffusion",
-                "our diffusion, to its plateau",
-                strain_error=measure.warp_strain_error(slow_mesh, slow_mesh.pattern, target),
-                steps=slow.report["fit"]["iterations"],
+                "--spacing",
+                f"{spacing:g}",
+                *options,
+                *ours.PAPERS,
+                **often,
             )
-        )
-        diffusion = same_energy(free, slow)
+            slow_mesh = slow.mesh()
+            target = np.interp(slow_mesh.pattern[:, 1], slow.rows("y_mm"), slow.rows("strain"))
+            rows.append(
+                figures(
+                    slow_mesh,
+                    slow_mesh.pattern,
+                    slow.fit,
+                    "diffusion",
+                    f"our diffusion, {spacing:.3g} mm, to its plateau",
+                    strain_error=measure.warp_strain_error(slow_mesh, slow_mesh.pattern, target),
+                    steps=slow.report["fit"]["iterations"],
+                )
+            )
+            found = same_energy(program, limb, free, slow, given)
+            diffusion.append(found | {"spacing_mm": spacing, "as_fine": spacing <= 1.01 * edge})
     for row in rows:
         against = "ours_free" if row["key"] == "diffusion" else "ours"
         reference = next(other for other in rows if other["key"] == against)
@@ -258,21 +271,30 @@ def measure_limb(
     }
 
 
-def same_energy(run: ours.Run, slow: ours.Run) -> dict[str, Any]:
-    """Ours and the diffusion at the diffusion's last J_E over the fabric's area."""
+def same_energy(
+    program: ours.Program, limb: ours.Limb, run: ours.Run, slow: ours.Run, given: argparse.Namespace
+) -> dict[str, Any]:
+    """Ours and the diffusion at the diffusion's last J_E over the fabric's area.
+
+    Ours is run again with as many steps as it takes to get below that, and timed.
+    """
     densities = run.energy_density(), slow.energy_density()
     found: dict[str, Any] = {
         "ours_density": densities[0],
         "diffusion_density": densities[1],
         "above": densities[1] / densities[0] - 1.0,
     }
-    down = run.down_at(densities[1])
-    if down is not None:
+    step = run.down_at(densities[1])
+    if step is not None:
+        options = ("--newton-steps", str(step), *ours.PAPERS)
+        short = program.flatten(
+            limb, "down", *options, repeats=given.repeats, patience=given.patience
+        )
         found |= {
-            "step": down[0],
+            "step": step,
             "steps": run.report["fit"]["iterations"],
-            "ours_seconds": down[1],
-            "ratio": slow.fit.median / down[1],
+            "ours_seconds": short.fit.median,
+            "ratio": slow.fit.median / short.fit.median,
         }
     return found
 

@@ -81,14 +81,13 @@ def limb_table(limb: dict[str, Any]) -> str:
             f"{100.0 * check['pressure']:.3f} %, converged: "
             f"{'yes' if check['converged'] else 'NO'}; {verdict}"
         )
-    diffusion = limb.get("diffusion")
-    if diffusion:
+    for diffusion in limb["diffusion"]:
         lines.append(
-            f"J_E over the fabric's area: ours, free, {diffusion['ours_density']:.4e}, diffusion "
-            f"{diffusion['diffusion_density']:.4e} N/mm ({diffusion['above'] * 100.0:+.1f} %)"
+            f"J_E over the fabric's area: ours, free, {diffusion['ours_density']:.4e}, diffusion of "
+            f"{diffusion['spacing_mm']:.3g} mm {diffusion['diffusion_density']:.4e} N/mm ({diffusion['above'] * 100.0:+.1f} %)"
             + (
                 f"; ours is down there after step {diffusion['step']} of {diffusion['steps']}, "
-                f"about {_seconds(diffusion['ours_seconds'])}: the diffusion takes "
+                f"{_seconds(diffusion['ours_seconds'])}: the diffusion takes "
                 f"{diffusion['ratio']:.0f} times as long to the same J_E"
                 if "ratio" in diffusion
                 else "; ours does not come down there: no time to the same J_E"
