@@ -2,7 +2,9 @@
 //! `cargo bench -p wovenfit-tests --bench fit`.
 //!
 //! A machine's figures are compared with others of the same run: growth from size to size should be no
-//! worse than n^1.3, and a second solve take a third of the first or less.
+//! worse than n^1.3, and a second solve take a third of the first or less. `fit` is the fit's steps alone;
+//! `pattern` is what a designer waits for: first from the scan to the pattern and its report, then from the
+//! changed pressure to the next.
 
 #![allow(missing_docs, reason = "criterion's macros make undocumented functions")]
 
@@ -13,7 +15,7 @@ use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use wovenfit_core::Prepared;
 use wovenfit_core::design::Design;
 use wovenfit_core::parameters::Parameters;
-use wovenfit_core::progress::{Progress, Stage};
+use wovenfit_core::progress::{Progress, Silent, Stage};
 use wovenfit_core::samples::sample;
 
 /// The time between the beginning of the fit and that of the next stage.
@@ -69,5 +71,31 @@ fn fit(criterion: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, fit);
+fn pattern(criterion: &mut Criterion) {
+    let parameters = Parameters::default();
+    let mut group = criterion.benchmark_group("pattern");
+    group.sample_size(10);
+    for triangles in [20_000, 60_000, 200_000] {
+        let limb = sample("elbow", triangles, 0.0).expect("the elbow is a sample");
+        let first = || {
+            let prepared = Prepared::new(&limb.mesh, &limb.design, &parameters, &Silent)?;
+            let done = prepared.solve(&limb.design, &parameters, None, &Silent)?;
+            Ok::<_, wovenfit_core::Error>((prepared, done))
+        };
+        let (prepared, done) = first().expect("it is solved");
+        let mut changed = limb.design.clone();
+        changed.pressures[1].kpa *= 1.2;
+        group.bench_function(BenchmarkId::new("first", triangles), |bencher| {
+            bencher.iter(|| first().expect("it is solved"));
+        });
+        group.bench_function(BenchmarkId::new("again", triangles), |bencher| {
+            bencher.iter(|| {
+                prepared.solve(&changed, &parameters, Some(&done), &Silent).expect("it is solved")
+            });
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, fit, pattern);
 criterion_main!(benches);

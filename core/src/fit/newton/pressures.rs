@@ -19,6 +19,7 @@ use glam::DVec2;
 
 use crate::design::{Fabric, PressureModel};
 use crate::fit::FitInput;
+use crate::geometry::SurfacePoint;
 use crate::pressure::{
     FLAT_CURVATURE, LocalCurvature, Reached, Reader, Stretch, Targets, ThreadTarget, Wish,
     pressing_curvature, pressure_kpa, warp_strain,
@@ -56,14 +57,29 @@ impl Correction {
 }
 
 /// How pressures and pattern answer to the targets.
-#[derive(Clone)]
 pub struct Answers {
-    /// The annotations of each thread.
+    /// The annotations of each thread, and where they are.
     groups: Vec<Vec<usize>>,
+    points: Vec<SurfacePoint>,
+    /// What makes pressures of strains.
+    fabric: Fabric,
+    pressure_model: PressureModel,
     /// Pressures by thread then by annotation, in kPa per strain.
     pressures: Vec<Vec<f64>>,
     /// Motions of the vertices by thread, in mm per strain; none where they were not solved for.
     motions: Vec<Vec<DVec2>>,
+}
+
+impl Answers {
+    /// Whether they are those of these threads.
+    fn serve(&self, threads: &Threads<'_>) -> bool {
+        let FitInput { annotations, fabric, pressure_model, .. } = *threads.input;
+        let points = annotations.iter().map(|annotation| annotation.point);
+        self.groups == threads.groups
+            && self.points.iter().copied().eq(points)
+            && self.fabric == *fabric
+            && self.pressure_model == pressure_model
+    }
 }
 
 /// The threads with annotated points and their targets.
@@ -102,10 +118,10 @@ impl<'a> Threads<'a> {
     }
 
     /// Continues with the targets of an earlier fit where it has one for the same annotation, and with its
-    /// answers if it is still the same threads that were annotated. Whether the answers serve: then the
-    /// targets are the earlier fit's and are to be corrected before the first step.
+    /// answers if nothing but wanted pressures has changed. Whether the answers serve: then the targets are
+    /// the earlier fit's and are to be corrected before the first step.
     pub fn resume(&mut self, earlier: &Targets, answers: Option<&Arc<Answers>>) -> bool {
-        self.answers = answers.filter(|answers| answers.groups == self.groups).map(Arc::clone);
+        self.answers = answers.filter(|answers| answers.serve(self)).map(Arc::clone);
         let limit = self.input.fabric.max_strain;
         for (group, asked) in self.groups.iter().zip(&mut self.asked) {
             let before = earlier.threads.iter().find(|t| t.annotations == *group);
@@ -352,8 +368,14 @@ impl<'a> Threads<'a> {
                 }
                 motions[i] = moved.into_iter().map(|d| d / step).collect();
             }
-            let groups = self.groups.clone();
-            self.answers = Some(Arc::new(Answers { groups, pressures, motions }));
+            self.answers = Some(Arc::new(Answers {
+                groups: self.groups.clone(),
+                points: annotations.iter().map(|annotation| annotation.point).collect(),
+                fabric: fabric.clone(),
+                pressure_model,
+                pressures,
+                motions,
+            }));
         }
         let answers = self.answers.as_ref().map_or(&[][..], |answers| &answers.pressures);
         let mut problem = LeastSquares::new(count);

@@ -29,6 +29,9 @@ const FIRST_MM: f64 = 35.0;
 /// At rest the acceleration, too, moves no vertex by more than the tolerance times this.
 const FURTHER: f64 = 2.0;
 
+/// So many steps within the tolerance, one after the other, are rest whatever the acceleration wants.
+const RESTING: usize = 6;
+
 /// Steps that move no vertex by more than this are taken as they are: what follows the fabric (threads,
 /// turning springs, a seam's course) makes the energy an uncertain judge of them.
 const TRUSTED_MM: f64 = 1.0;
@@ -174,6 +177,7 @@ impl<'a> Run<'a> {
         let parameters = self.problem.input.parameters;
         let mut targets = self.threads.targets(&self.coordinates);
         self.record(&targets);
+        let mut resting = 0;
         let stopped = loop {
             let wanted = self.wanted(&targets);
             let turning = self.problem.solver.triangles.turning(
@@ -201,7 +205,9 @@ impl<'a> Run<'a> {
                 if advance == Advance::Trusted { self.accelerate(&before) } else { step.largest };
             targets = self.threads.targets(&self.coordinates);
             self.record(&targets);
-            if rests && further < FURTHER * parameters.newton_tolerance {
+            resting = if rests { resting + 1 } else { 0 };
+            let stays = further < FURTHER * parameters.newton_tolerance || resting >= RESTING;
+            if rests && stays {
                 break Stopped::Gradient;
             }
             if self.iterations >= parameters.newton_steps || advance == Advance::Nowhere {
