@@ -306,7 +306,13 @@ impl<'a> Run<'a> {
     /// Goes further, or less far, than from `before` to here; how far that wants to move a vertex, in mm: a
     /// motion that comes to its end by small steps alone has as long a way to go.
     fn accelerate(&mut self, before: &[f64]) -> f64 {
-        let step: Vec<f64> = self.state().iter().zip(before).map(|(to, from)| to - from).collect();
+        let after = self.state();
+        if after.len() != before.len() {
+            // The threads were found anew.
+            self.anderson.forget();
+            return 0.0;
+        }
+        let step: Vec<f64> = after.iter().zip(before).map(|(to, from)| to - from).collect();
         let taken = self.anderson.step(before, &step);
         let coordinates = 2 * self.coordinates.len();
         let from: Vec<DVec2> =
@@ -314,6 +320,10 @@ impl<'a> Run<'a> {
         let motion: Vec<DVec2> =
             taken[..coordinates].chunks_exact(2).map(DVec2::from_slice).collect();
         let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
+        if !taken.iter().all(|number| number.is_finite()) {
+            self.anderson.forget();
+            return 0.0;
+        }
         if largest >= TRUSTED_MM || self.problem.solver.triangles.longest_step(&from, &motion) < 1.0
         {
             return largest;
