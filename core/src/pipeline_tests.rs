@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::*;
-use crate::design::{PressureModel, RegionPlane};
+use crate::design::{Painted, PressureModel, RegionPlane, condense};
 use crate::progress::Silent;
 use crate::samples::sample;
 
@@ -46,6 +46,37 @@ fn a_changed_wish_is_solved_from_the_last_pattern() {
             let share = got.got_kpa.unwrap() / asked.kpa;
             assert!((share - 1.0).abs() < 0.02, "{share}");
         }
+    }
+}
+
+/// The painted ring reaches the seam, beside which a weft thread is the pattern's edge itself.
+#[test]
+fn a_ring_painted_right_round_a_tube_is_reached_up_to_the_seam() {
+    const SIDES: usize = 48;
+    let (radius, rows) = (45.0, 31);
+    let points: Vec<DVec3> = (0..rows * SIDES)
+        .map(|k| {
+            let (sin, cos) = (std::f64::consts::TAU * (k % SIDES) as f64 / SIDES as f64).sin_cos();
+            DVec3::new(radius * cos, radius * sin, 4.0 * (k / SIDES) as f64)
+        })
+        .collect();
+    let triangles: Vec<[usize; 3]> = (0..(rows - 1) * SIDES)
+        .flat_map(|a| {
+            let b = if a % SIDES == SIDES - 1 { a + 1 - SIDES } else { a + 1 };
+            [[a, b, b + SIDES], [a, b + SIDES, a + SIDES]]
+        })
+        .collect();
+    let tube = RawMesh::from_triangles(points, &triangles);
+    let kpa: Vec<f64> =
+        tube.points.iter().map(|p| if (45.0..75.0).contains(&p.z) { 2.0 } else { 0.0 }).collect();
+    let Painted { pressures, .. } = condense(&tube.points, &tube.polygons, &kpa);
+    assert!(pressures.len() > 50);
+    let design = Design { pressures, ..Design::default() };
+    let worn = flatten(&tube, &design, &Parameters::default(), &Silent).unwrap();
+    assert!(worn.report.fit.converged);
+    for row in &worn.report.pressures {
+        let got = row.got_kpa.unwrap();
+        assert!((got / 2.0 - 1.0).abs() < 0.02, "{got} kPa");
     }
 }
 

@@ -283,7 +283,8 @@ fn one_thread(mut pieces: Vec<Part>, at: f64, tolerance: f64) -> Option<f64> {
         worn += length;
         reach = reach.max(high);
     }
-    (holds_place && rest > 0.0).then(|| worn / rest - 1.0)
+    // A line that only touches the pattern's edge has no strain but rounding's.
+    (holds_place && rest > tolerance).then(|| worn / rest - 1.0)
 }
 
 #[cfg(test)]
@@ -330,6 +331,21 @@ mod tests {
         let places = [20.0, 70.0, 3.0].map(|x| DVec2::new(x, 0.5 * x));
         let [together, _] = strains(&places);
         assert_eq!(together, places.map(|p| strain(p, Along::Warp)));
+    }
+
+    #[test]
+    fn a_line_that_touches_the_edge_in_a_corner_is_no_thread() {
+        let (disk, mut plane) = strips();
+        // The corner in the middle of the left edge stands out by less than any scan is exact.
+        for out in [1e-3, 1e-9, 1e-15] {
+            plane[4].x = -out;
+            let [warp, weft] = thread_strains(&disk, &plane, &[plane[4]], gap(&disk));
+            assert_eq!(weft, [None], "{out} mm");
+            assert!((warp[0].unwrap() - 23.0 / 60.0).abs() < 1e-4, "{out} mm: {warp:?}");
+        }
+        plane[4].x = -1.0;
+        let [_, weft] = thread_strains(&disk, &plane, &[DVec2::new(-0.5, 20.0)], gap(&disk));
+        assert!(weft[0].is_some());
     }
 
     #[test]

@@ -395,10 +395,7 @@ impl<'a> Threads<'a> {
                 [-asked, fabric.max_strain - asked]
             })
             .collect();
-        let mut changes = problem.solve(&limits);
-        if !changes.iter().all(|change| change.is_finite()) {
-            changes.fill(0.0);
-        }
+        let changes = problem.solve(&limits);
         let mut correction = Correction { changes, settled: false };
         correction.settled = !correction.counts() || self.agree(&got, &counts);
         correction

@@ -310,7 +310,7 @@ impl<'a> Run<'a> {
         if after.len() != before.len() {
             // The threads were found anew.
             self.anderson.forget();
-            return 0.0;
+            return f64::INFINITY;
         }
         let step: Vec<f64> = after.iter().zip(before).map(|(to, from)| to - from).collect();
         let taken = self.anderson.step(before, &step);
@@ -320,10 +320,6 @@ impl<'a> Run<'a> {
         let motion: Vec<DVec2> =
             taken[..coordinates].chunks_exact(2).map(DVec2::from_slice).collect();
         let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
-        if !taken.iter().all(|number| number.is_finite()) {
-            self.anderson.forget();
-            return 0.0;
-        }
         if largest >= TRUSTED_MM || self.problem.solver.triangles.longest_step(&from, &motion) < 1.0
         {
             return largest;
