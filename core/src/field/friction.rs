@@ -27,6 +27,7 @@ use rayon::prelude::*;
 
 use super::places::Places;
 use super::sampling::Sampling;
+use super::surroundings::Surroundings;
 use crate::design::Fabric;
 use crate::pressure::triangle_stretch;
 use crate::surface::{HalfEdgeId, Surface};
@@ -34,9 +35,6 @@ use crate::units::N_PER_MM2_PER_KPA;
 
 /// Pressure below which no friction is stated, in kPa: half a mmHg, what a sensor resolves.
 const LEAST_KPA: f64 = 0.067;
-
-/// The radius of the means is at least this many edges: less is a single ring of triangles.
-const LEAST_EDGES: f64 = 2.0;
 
 /// What the worn fabric does to the limb at the places, as means over the radius.
 pub(super) struct Pull {
@@ -81,39 +79,29 @@ impl Pull {
         fabric: &Fabric,
         places: &Places,
         sampling: &Sampling,
+        surroundings: &Surroundings,
         (normals, areas): (&[DVec3], &[f64]),
-        radius: f64,
     ) -> Self {
-        let radius = radius.max(LEAST_EDGES * disk.mean_edge_length());
         let forces = places.sums(&nodal_forces(disk, coordinates, fabric), DVec3::ZERO);
         let areas = places.sums(areas, 0.0);
-        let computed: Vec<(DVec3, f64)> = sampling
-            .seeds
-            .par_iter()
+        let computed: Vec<(DVec3, f64)> = surroundings
+            .all()
             .with_min_len(64)
-            .map_init(
-                || places.visits(),
-                |visits, &seed| {
-                    let (mut tangential, mut pressing, mut area) = (DVec3::ZERO, 0.0, 0.0);
-                    for (place, distance) in places.within(visits, seed, radius) {
-                        let weight = 1.0 - (distance / radius).powi(2);
-                        let (force, normal) = (forces[place], normals[place]);
-                        let outward = force.dot(normal);
-                        tangential += weight * (force - outward * normal);
-                        pressing -= weight * outward;
-                        area += weight * areas[place];
-                    }
-                    if area > 0.0 {
-                        (tangential / area, pressing / area)
-                    } else {
-                        (tangential, 0.0)
-                    }
-                },
-            )
+            .map(|round| {
+                let (mut tangential, mut pressing, mut area) = (DVec3::ZERO, 0.0, 0.0);
+                for (place, weight) in round {
+                    let (force, normal) = (forces[place], normals[place]);
+                    let outward = force.dot(normal);
+                    tangential += weight * (force - outward * normal);
+                    pressing -= weight * outward;
+                    area += weight * areas[place];
+                }
+                if area > 0.0 { (tangential / area, pressing / area) } else { (tangential, 0.0) }
+            })
             .collect();
         let (tangential, normal): (Vec<DVec3>, Vec<f64>) = computed.into_iter().unzip();
         // A carried value comes from computed places up to two spacings away.
-        let margin = radius + 2.0 * sampling.spacing.unwrap_or(0.0);
+        let margin = surroundings.radius + 2.0 * sampling.spacing.unwrap_or(0.0);
         let mut inside = vec![true; places.count()];
         let mut visits = places.visits();
         for edge in free_edges.iter().flat_map(|&h| [disk.from(h), disk.to(h)]) {

@@ -24,6 +24,7 @@ mod places;
 mod reachable;
 mod sampling;
 mod summary;
+mod surroundings;
 #[cfg(test)]
 mod tests;
 
@@ -43,6 +44,7 @@ use bending::{Bending, along, mean};
 use cloth::Cloth;
 use friction::Pull;
 use places::Places;
+use surroundings::Surroundings;
 
 /// The most that a pressure over 5 mm may be uncertain, as a share of it; see `bending.rs`.
 const MOST_UNCERTAIN: f64 = 0.05;
@@ -51,6 +53,7 @@ const MOST_UNCERTAIN: f64 = 0.05;
 pub struct Relief {
     places: Places,
     bending: Bending,
+    surroundings: Surroundings,
     /// Of the scan's edges, in mm.
     mean_edge: f64,
 }
@@ -74,7 +77,11 @@ impl Relief {
     ) -> Option<Self> {
         let places = Places::new(disk, seams);
         let bending = Bending::new(scan, &places, parameters, progress)?;
-        Some(Self { places, bending, mean_edge: scan.mean_edge_length() })
+        /// The radius of the means is at least this many edges: less is a single ring of triangles.
+        const LEAST_EDGES: f64 = 2.0;
+        let radius = parameters.curvature_radius.max(LEAST_EDGES * disk.mean_edge_length());
+        let surroundings = Surroundings::new(&places, &bending.sampling, radius, progress)?;
+        Some(Self { places, bending, surroundings, mean_edge: scan.mean_edge_length() })
     }
 }
 
@@ -135,7 +142,7 @@ pub struct Field {
 /// The field of a worn brace.
 #[must_use]
 pub fn everywhere(input: &FieldInput<'_>) -> Field {
-    let Relief { places, bending, .. } = input.relief;
+    let Relief { places, bending, surroundings, .. } = input.relief;
     let cloth = Cloth::new(input.disk, input.coordinates);
 
     let pull = Pull::new(
@@ -145,8 +152,8 @@ pub fn everywhere(input: &FieldInput<'_>) -> Field {
         input.fabric,
         places,
         &bending.sampling,
+        surroundings,
         (&bending.normal, &cloth.worn_area),
-        input.parameters.curvature_radius,
     );
 
     let curvature: Vec<LocalCurvature> = input

@@ -285,6 +285,7 @@ fn nodal_forces_press_as_the_formula_says() {
     let bending = Bending::new(&worn.disk, &places, &Parameters::default(), &Silent).unwrap();
     let free: Vec<HalfEdgeId> =
         worn.disk.boundary_loops().iter().flat_map(|l| l.half_edges.clone()).collect();
+    let round = Surroundings::new(&places, &bending.sampling, 10.0, &Silent).unwrap();
     let pull = Pull::new(
         &worn.disk,
         &worn.coordinates,
@@ -292,8 +293,8 @@ fn nodal_forces_press_as_the_formula_says() {
         &fabric,
         &places,
         &bending.sampling,
+        &round,
         (&bending.normal, &cloth.worn_area),
-        10.0,
     );
     let field = worn.field(&fabric);
     let mut count = 0;
