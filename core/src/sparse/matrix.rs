@@ -4,7 +4,7 @@
 //! further term (an edge of a seam and the one sewn to it). It never changes, so the order of
 //! elimination (`dissection`) and the analysis (`multifrontal`) are made once.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use rayon::prelude::*;
 
@@ -51,8 +51,15 @@ pub struct Matrix {
     cliques: Vec<Vec<Block>>,
     /// Of every vertex with itself.
     diagonal: Vec<u32>,
-    /// Room of a factor that is no longer needed: new memory costs as much as half a factorization.
-    spare: Mutex<Vec<f64>>,
+    /// Memory that is no longer needed: new memory costs as much as half a factorization.
+    spare: Mutex<Spare>,
+}
+
+/// Room of a factor, and of what a factorization needs meanwhile.
+#[derive(Default)]
+struct Spare {
+    factor: Vec<f64>,
+    meanwhile: Vec<f64>,
 }
 
 /// Corner pairs of a triangle, lower triangle row by row.
@@ -257,30 +264,35 @@ impl Matrix {
         values: &[f64],
         progress: &dyn Progress,
     ) -> Result<Option<SurfaceFactor>, SparseError> {
-        let mut factor = self.spared(Vec::new());
-        let more = self.factors.len().saturating_sub(factor.len());
-        factor.try_reserve_exact(more).map_err(|_| SparseError::TooLarge(AXES * self.vertices))?;
-        factor.resize(self.factors.len(), 0.0);
-        if self.factors.factorize(values, &mut factor, progress) {
+        let Spare { mut factor, mut meanwhile } = std::mem::take(&mut *self.spared());
+        for (room, len) in
+            [(&mut factor, self.factors.len()), (&mut meanwhile, self.factors.room())]
+        {
+            room.try_reserve_exact(len.saturating_sub(room.len()))
+                .map_err(|_| SparseError::TooLarge(AXES * self.vertices))?;
+            room.resize(len, 0.0);
+        }
+        let positive = self.factors.factorize(values, &mut factor, &mut meanwhile, progress);
+        self.spared().meanwhile = meanwhile;
+        if positive {
             return Ok(Some(SurfaceFactor(factor)));
         }
-        self.spared(factor);
+        self.spared().factor = factor;
         Ok(None)
     }
 
     /// Takes back a factor that is no longer needed; its room serves for the next.
     pub fn take_back(&self, factor: SurfaceFactor) {
-        self.spared(factor.0);
+        self.spared().factor = factor.0;
     }
 
-    /// Keeps no room for another factor.
+    /// Keeps no room for another factorization.
     pub fn let_go(&self) {
-        self.spared(Vec::new());
+        *self.spared() = Spare::default();
     }
 
-    /// What was spared, in exchange.
-    fn spared(&self, room: Vec<f64>) -> Vec<f64> {
-        std::mem::replace(&mut *self.spare.lock().unwrap_or_else(PoisonError::into_inner), room)
+    fn spared(&self) -> MutexGuard<'_, Spare> {
+        self.spare.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// Solutions for right-hand sides, together: reading the factor is what a solve costs.

@@ -44,6 +44,10 @@ struct Front {
     /// Where its columns of the factor begin, and those of the first of its parts.
     columns: usize,
     first_columns: usize,
+    /// Room, in numbers, for what this piece leaves over and what its parts need meanwhile; and where in it
+    /// that of its second part begins.
+    room: usize,
+    second_room: usize,
 }
 
 impl Front {
@@ -55,6 +59,11 @@ impl Front {
     /// Rows: its own and the border's.
     fn rows(&self) -> usize {
         self.own() + AXES * self.border.len()
+    }
+
+    /// Numbers that it leaves over: those of its border's rows and columns.
+    fn left_over(&self) -> usize {
+        (AXES * self.border.len()).pow(2)
     }
 
     fn many(&self) -> bool {
@@ -120,7 +129,23 @@ impl Multifrontal {
                 })
             });
             let first_columns = parts.map_or(columns, |[left, _]| fronts[left].first_columns);
-            let front = Front { piece, border, into, blocks: 0..0, columns, first_columns };
+            let mut front = Front {
+                piece,
+                border,
+                into,
+                blocks: 0..0,
+                columns,
+                first_columns,
+                room: 0,
+                second_room: 0,
+            };
+            front.second_room = front.left_over();
+            front.room = front.second_room;
+            if let Some([a, b]) = parts.map(|parts| parts.map(|p| &fronts[p])) {
+                // At the same time, or in what the first no longer needs.
+                front.second_room += if front.many() { a.room } else { a.left_over() };
+                front.room = (front.left_over() + a.room).max(front.second_room + b.room);
+            }
             columns += front.own() * front.rows();
             fronts.push(front);
         }
@@ -156,21 +181,34 @@ impl Multifrontal {
         self.len
     }
 
-    /// Factorizes the matrix of these blocks into `factor`, of [`len`](Self::len) numbers; false if it is not
-    /// positive definite, or the job is cancelled.
-    pub fn factorize(&self, blocks: &[f64], factor: &mut [f64], progress: &dyn Progress) -> bool {
-        let Some(root) = self.fronts.len().checked_sub(1) else { return true };
-        self.eliminate(root, blocks, factor, progress).is_some()
+    /// Numbers that a factorization needs room for meanwhile.
+    pub fn room(&self) -> usize {
+        self.fronts.last().map_or(0, |root| root.room)
     }
 
-    /// Eliminates the vertices of a piece and its parts; what that leaves on the border, lower triangle.
+    /// Factorizes the matrix of these blocks into `factor`, of [`len`](Self::len) numbers, with
+    /// [`room`](Self::room) for as many; false if it is not positive definite, or the job is cancelled.
+    pub fn factorize(
+        &self,
+        blocks: &[f64],
+        factor: &mut [f64],
+        room: &mut [f64],
+        progress: &dyn Progress,
+    ) -> bool {
+        let Some(root) = self.fronts.len().checked_sub(1) else { return true };
+        self.eliminate(root, blocks, factor, room, progress).is_some()
+    }
+
+    /// Eliminates the vertices of a piece and its parts; what that leaves on the border is at the beginning of
+    /// `room` then, the lower triangle of a matrix by columns.
     fn eliminate(
         &self,
         k: usize,
         blocks: &[f64],
         factor: &mut [f64],
+        room: &mut [f64],
         progress: &dyn Progress,
-    ) -> Option<Vec<f64>> {
+    ) -> Option<()> {
         let front = &self.fronts[k];
         if front.many() && progress.cancelled() {
             return None;
@@ -178,17 +216,25 @@ impl Multifrontal {
         let (own, rows) = (front.own(), front.rows());
         let left_over = rows - own;
         let (below, columns) = factor.split_at_mut(front.columns - front.first_columns);
-        let parts = match front.piece.parts.map(|parts| parts.map(|p| p as usize)) {
-            Some([a, b]) => {
-                let split = self.fronts[b].first_columns - front.first_columns;
-                let (first, second) = below.split_at_mut(split);
-                let left = || self.eliminate(a, blocks, first, progress);
-                let right = || self.eliminate(b, blocks, second, progress);
-                let (left, right) = both(front.many(), left, right);
-                [left?, right?]
+        let (rest, room) = room.split_at_mut(front.left_over());
+        let second_room = front.second_room - rest.len();
+        let parts = front.piece.parts.map(|parts| parts.map(|p| p as usize));
+        if let Some([a, b]) = parts {
+            let split = self.fronts[b].first_columns - front.first_columns;
+            let (first, second) = below.split_at_mut(split);
+            if front.many() {
+                let (room, other) = room.split_at_mut(second_room);
+                let (left, right) = rayon::join(
+                    || self.eliminate(a, blocks, first, room, progress),
+                    || self.eliminate(b, blocks, second, other, progress),
+                );
+                left?;
+                right?;
+            } else {
+                self.eliminate(a, blocks, first, room, progress)?;
+                self.eliminate(b, blocks, second, &mut room[second_room..], progress)?;
             }
-            None => Default::default(),
-        };
+        }
         columns.fill(0.0);
         for (block, &[row, column]) in blocks[BLOCK * front.blocks.start..BLOCK * front.blocks.end]
             .chunks_exact(BLOCK)
@@ -199,22 +245,12 @@ impl Multifrontal {
                 columns[to..to + AXES].copy_from_slice(entries);
             }
         }
-        let mut rest = vec![0.0; left_over * left_over];
-        for (part, into) in parts.iter().zip(&front.into) {
-            let size = AXES * into.len();
-            for (c, source) in part.chunks_exact(size.max(1)).enumerate() {
-                let to = AXES * into[c / AXES] as usize + c % AXES;
-                let (column, before) = if to < own {
-                    (&mut columns[rows * to..rows * (to + 1)], 0)
-                } else {
-                    (&mut rest[left_over * (to - own)..left_over * (to - own + 1)], own)
-                };
-                for (&row, pair) in into.iter().zip(source.chunks_exact(AXES)).skip(c / AXES) {
-                    let row = AXES * row as usize - before;
-                    column[row] += pair[0];
-                    column[row + 1] += pair[1];
-                }
-            }
+        let left = [(0, 0), (second_room, 1)].map(|(at, part)| Left {
+            numbers: &room[at.min(room.len())..],
+            into: &front.into[part],
+        });
+        for left in &left {
+            left.add_to(columns, rows, 0..own);
         }
         let matrix = MatMut::from_column_major_slice_mut(columns, rows, own);
         let (mut top, mut bottom) = matrix.split_at_row_mut(own);
@@ -235,9 +271,9 @@ impl Multifrontal {
                 Par::Seq,
             );
             triangular::matmul(
-                MatMut::from_column_major_slice_mut(&mut rest, left_over, left_over),
+                MatMut::from_column_major_slice_mut(rest, left_over, left_over),
                 BlockStructure::TriangularLower,
-                Accum::Add,
+                Accum::Replace,
                 bottom.as_ref(),
                 BlockStructure::Rectangular,
                 bottom.as_ref().transpose(),
@@ -245,8 +281,11 @@ impl Multifrontal {
                 -1.0,
                 Par::Seq,
             );
+            for left in &left {
+                left.add_to(rest, left_over, own..rows);
+            }
         }
-        Some(rest)
+        Some(())
     }
 
     /// Solutions for right-hand sides, together: reading the factor is what a solve costs.
@@ -371,6 +410,34 @@ impl Multifrontal {
         let left = || self.backward(a as usize, factor, first, count, &of_first);
         let right = || self.backward(b as usize, factor, second, count, &of_second);
         both(front.many(), left, right);
+    }
+}
+
+/// What a part has left over, the lower triangle of a matrix by columns, and where it goes in the front.
+struct Left<'a> {
+    numbers: &'a [f64],
+    into: &'a [u32],
+}
+
+impl Left<'_> {
+    /// Adds those of its columns that are among `range` of the front's to `columns`, which are of `rows` and
+    /// are the front's from there on.
+    fn add_to(&self, columns: &mut [f64], rows: usize, range: Range<usize>) {
+        let size = AXES * self.into.len();
+        let at = |k: u32| AXES * k as usize;
+        let first = AXES * self.into.partition_point(|&k| at(k) < range.start);
+        let end = AXES * self.into.partition_point(|&k| at(k) < range.end);
+        for c in first..end {
+            let to = at(self.into[c / AXES]) + c % AXES - range.start;
+            let column = &mut columns[rows * to..rows * (to + 1)];
+            let source = self.numbers[size * c..size * (c + 1)].chunks_exact(AXES);
+            for (&row, pair) in self.into.iter().zip(source).skip(c / AXES) {
+                let row = at(row) - range.start;
+                for (sum, number) in column[row..row + AXES].iter_mut().zip(pair) {
+                    *sum += number;
+                }
+            }
+        }
     }
 }
 

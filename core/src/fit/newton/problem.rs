@@ -140,23 +140,16 @@ impl<'a> Problem<'a> {
         for (k, (row, stiffness)) in courses.rows().iter().zip(stiffnesses).enumerate() {
             matrix.add_square(&mut room.values, k, row, stiffness);
         }
-        let downhill = self.downhill(at, &courses);
-        self.ask()?;
-        let solved = self.factorized(at.coordinates, courses, room, Some(&downhill))?;
-        Ok(solved.map(|(model, pinned)| {
-            let motion = self.freed(&model, &pinned);
-            Solved { model, downhill, motion }
-        }))
+        self.solved(at, courses, room)
     }
 
-    /// The Hessian without the seams; `None` if that is not positive definite.
+    /// The same without the seams.
     ///
     /// # Errors
     /// If memory runs out or the job is cancelled.
-    pub fn unsewn(&self, at: &Place<'_>, room: &mut Room) -> Result<Option<Model>, FitError> {
+    pub fn unsewn(&self, at: &Place<'_>, room: &mut Room) -> Result<Option<Solved>, FitError> {
         self.assemble(at, Order::Second, room);
-        let solved = self.factorized(at.coordinates, Courses::default(), room, None)?;
-        Ok(solved.map(|(model, _)| model))
+        self.solved(at, Courses::default(), room)
     }
 
     /// The triangles' Hessian and what holds the fabric, into the room's values.
@@ -172,28 +165,28 @@ impl<'a> Problem<'a> {
         matrix.add_diagonal(values, PINNED, PIN * mean);
     }
 
-    /// The room's values factorized, and the pinned fabric's answer to a force; `None` if they are not
-    /// positive definite.
-    fn factorized(
+    /// The room's values factorized, and the step that they make; `None` if they are not positive definite.
+    fn solved(
         &self,
-        coordinates: &[DVec2],
+        at: &Place<'_>,
         courses: Courses,
         room: &Room,
-        force: Option<&[f64]>,
-    ) -> Result<Option<(Model, Vec<f64>)>, FitError> {
+    ) -> Result<Option<Solved>, FitError> {
         let matrix = &self.solver.matrix;
+        let downhill = self.downhill(at, &courses);
+        self.ask()?;
         let Some(factor) = matrix.factorize(&room.values, self.progress)? else {
             self.ask()?;
             return Ok(None);
         };
         self.ask()?;
-        let (row, slide) = (self.lean(coordinates.len()), self.shares(coordinates));
-        let mut right: Vec<&[f64]> = vec![&row, &slide];
-        right.extend(force);
-        let mut solutions = matrix.solve(&factor, &right).into_iter();
+        let (row, slide) = (self.lean(at.coordinates.len()), self.shares(at.coordinates));
+        let mut solutions = matrix.solve(&factor, &[&row, &slide, &downhill]).into_iter();
         let mut next = || solutions.next().unwrap_or_default();
         let (upright, slide, pinned) = (next(), next(), next());
-        Ok(Some((Model { factor, courses, upright, slide }, pinned)))
+        let model = Model { factor, courses, upright, slide };
+        let motion = self.freed(&model, &pinned);
+        Ok(Some(Solved { model, downhill, motion }))
     }
 
     /// Whether a Hessian of that problem serves for this one: the same fabric and the same markers.

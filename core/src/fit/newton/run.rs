@@ -464,11 +464,10 @@ impl<'a> Run<'a> {
         let wanted = self.wanted(&self.threads.targets(&self.coordinates));
         let turning = triangles.turning(&self.coordinates, &springs, &wanted, spacing);
         let at = Place { coordinates: &self.coordinates, wanted: &wanted, turning: &turning };
-        let Some(model) = self.problem.unsewn(&at, &mut self.room)? else { return Ok(None) };
+        let Some(Solved { model, motion, .. }) = self.problem.unsewn(&at, &mut self.room)? else {
+            return Ok(None);
+        };
         let here = triangles.energy(&self.coordinates, &springs, &wanted, &[]);
-        let mut forces = triangles.gradient(&self.coordinates, &springs, &wanted, &turning);
-        forces.iter_mut().for_each(|f| *f = -*f);
-        let motion = self.problem.answers(&model, &[&forces]).swap_remove(0);
         self.problem.solver.matrix.take_back(model.into_factor());
         let length = triangles.longest_step(&self.coordinates, &motion);
         let there: Vec<DVec2> =
