@@ -34,6 +34,9 @@ pub enum Stopped {
     Plateau,
     /// The gradient, scaled by the Hessian, fell below its threshold.
     Gradient,
+    /// The fabric is at rest, but no target strains were found at which the pressures settle: those are kept
+    /// that came nearest.
+    Unsettled,
     /// The largest number of steps was reached: not converged.
     MaxIterations,
 }
@@ -46,6 +49,7 @@ impl Stopped {
             Self::Tolerance => "strain_tolerance",
             Self::Plateau => "plateau",
             Self::Gradient => "gradient",
+            Self::Unsettled => "unsettled",
             Self::MaxIterations => "max_iterations",
         }
     }

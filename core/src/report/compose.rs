@@ -7,6 +7,7 @@ use super::{
 };
 use crate::design::Limits;
 use crate::field::reachable_kpa;
+use crate::fit::Stopped;
 use crate::parameters::Method;
 use crate::pipeline::Found;
 use crate::pressure::ThreadTarget;
@@ -172,6 +173,14 @@ fn fit_warnings(found: &Found<'_>) -> Vec<Warning> {
                     Method::Diffusion => "max-iterations",
                 }
             ),
+        ));
+    }
+    if found.fit.stopped == Stopped::Unsettled {
+        warnings.push(Warning::new(
+            "unsettled",
+            "no target strains were found that bring the pressures nearer to all that was asked; the pattern \
+             has those that came nearest, and the table says what it presses: ask for values closer to each \
+             other, or move the points apart",
         ));
     }
     let mut smoothed = Vec::new();

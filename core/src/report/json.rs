@@ -120,7 +120,8 @@ pub struct FitReport {
     pub iterations: u64,
     /// Whether it ended before its maximum, at its tolerance or its plateau.
     pub converged: bool,
-    /// Why it ended: `gradient`; `strain_tolerance` or `plateau` (diffusion); `max_iterations`.
+    /// Why it ended: `gradient`; `unsettled` (at rest, with the targets that came nearest to the pressures);
+    /// `strain_tolerance` or `plateau` (diffusion); `max_iterations`.
     pub stopped_by: &'static str,
     /// Energy of all springs, in the unit of `energy_unit`.
     pub energy: f64,

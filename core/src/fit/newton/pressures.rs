@@ -38,8 +38,15 @@ const AT_ONCE: usize = 4;
 /// promised, so that it hardly matters from where a fit began.
 const AGREE: f64 = 0.001;
 
+/// What is promised, in the same way: only what misses by more can have become worse.
+const PROMISED: f64 = 0.02;
+
 /// Target strains that are to change by less are as they should be.
 const SETTLED_STRAIN: f64 = 2e-4;
+
+/// Change of a target strain by which the pattern's answer to it is taken: a function of strain through two
+/// threads side by side swings by many times as much at its ends, and bends the rows there.
+const PROBE: f64 = 1e-4;
 
 /// How the targets are to change.
 pub struct Correction {
@@ -47,12 +54,21 @@ pub struct Correction {
     changes: Vec<f64>,
     /// Whether the pressures are as near to what was asked as they will come.
     pub settled: bool,
+    /// Whether the last one made the pressures worse.
+    pub worse: bool,
+    /// Whether no way to the pressures was found: the best targets met are kept.
+    pub lost: bool,
 }
 
 impl Correction {
     /// Whether it is more than a trifle.
     pub fn counts(&self) -> bool {
-        self.changes.iter().any(|change| change.abs() >= SETTLED_STRAIN)
+        self.most() >= SETTLED_STRAIN
+    }
+
+    /// The largest change of a target.
+    fn most(&self) -> f64 {
+        self.changes.iter().fold(0.0, |most: f64, change| most.max(change.abs()))
     }
 }
 
@@ -95,6 +111,46 @@ pub struct Threads<'a> {
     wishes: Vec<Wish>,
     answers: Option<Arc<Answers>>,
     rounds: usize,
+    course: Course,
+}
+
+/// The first correction changes no target by more: the fabric is still on its way.
+const FIRST_REACH: f64 = 0.1;
+
+/// Of what is missed, kPa²: where less was missed before, it is gone back there.
+const GOOD_AS_BEST: f64 = 0.8;
+
+/// How the corrections have gone so far.
+struct Course {
+    /// What was wanted of the pressures and missed at the last correction, in kPa², and whether that changed a
+    /// target.
+    missed: Option<(f64, bool)>,
+    /// The least of it while the fabric was nearly at rest, with the targets then.
+    best: Option<(f64, Vec<Option<f64>>)>,
+    /// The largest change of a target at the last correction.
+    last: f64,
+    /// A target changes by no more at a time.
+    reach: f64,
+    /// Whether the answers were read where the fabric was nearly at rest.
+    near: bool,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self { missed: None, best: None, last: 0.0, reach: FIRST_REACH, near: false }
+    }
+}
+
+impl Course {
+    /// Whether the last correction has made worse what is missed. On its way the fabric may miss more for a
+    /// while.
+    fn worse(&self, missed: f64, near: bool) -> bool {
+        /// So many times as much.
+        const ON_ITS_WAY: f64 = 1.5;
+        self.missed.is_some_and(|(before, changed)| {
+            changed && missed > before * if near { 1.0 } else { ON_ITS_WAY }
+        })
+    }
 }
 
 /// Corrections are given up after so many: a pressure that has not come by then does not.
@@ -112,6 +168,7 @@ impl<'a> Threads<'a> {
             wishes: Vec::new(),
             answers: None,
             rounds: 0,
+            course: Course::default(),
         };
         threads.find(coordinates, None);
         threads
@@ -122,6 +179,7 @@ impl<'a> Threads<'a> {
     /// the earlier fit's and are to be corrected before the first step.
     pub fn resume(&mut self, earlier: &Targets, answers: Option<&Arc<Answers>>) -> bool {
         self.answers = answers.filter(|answers| answers.serve(self)).map(Arc::clone);
+        self.course.near = self.answers.is_some();
         let limit = self.input.fabric.max_strain;
         for (group, asked) in self.groups.iter().zip(&mut self.asked) {
             let before = earlier.threads.iter().find(|t| t.annotations == *group);
@@ -248,9 +306,13 @@ impl<'a> Threads<'a> {
                 warp_strain(pressure_model, fabric, &points)
             })
             .collect();
+        let within = |strain: f64| strain.clamp(0.0, fabric.max_strain);
         if self.rounds == 0 {
-            let within = |strain: f64| strain.clamp(0.0, fabric.max_strain);
             self.asked = self.wanted.iter().map(|wanted| wanted.map(within)).collect();
+        }
+        // A place may become too flat for any tension to press there, or cease to be.
+        for (asked, wanted) in self.asked.iter_mut().zip(&self.wanted) {
+            *asked = wanted.map(|wanted| asked.unwrap_or_else(|| within(wanted)));
         }
     }
 
@@ -311,72 +373,152 @@ impl<'a> Threads<'a> {
             .all(|((a, &got), &counts)| !counts || (got - a.kpa).abs() <= AGREE * a.kpa.max(1.0))
     }
 
-    /// How the targets are to be corrected. `answers` gives how the pattern moves when the present targets
-    /// are replaced by each of others, or nothing if the job is cancelled: then it is of no use.
+    /// How the targets are to be corrected. `near` says whether the fabric is nearly at rest; `answers` gives
+    /// how the pattern moves when the present targets are replaced by each of others, or nothing if the job is
+    /// cancelled: then it is of no use.
     pub fn correction(
         &mut self,
         coordinates: &[DVec2],
+        near: bool,
         answers: impl Fn(&[Targets]) -> Vec<Vec<DVec2>>,
     ) -> Correction {
         let here = self.reader.read(coordinates);
         self.rounds += 1;
         self.find(coordinates, Some(&here));
-        let FitInput { annotations, fabric, pressure_model, .. } = *self.input;
-        let count = self.groups.len();
-        if self.rounds > MOST_ROUNDS {
-            return Correction { changes: vec![0.0; count], settled: true };
-        }
         let got = self.pressures(&here);
         let counts = self.counts(&here);
-        // Pressure per strain of a thread by itself.
-        let own = |k: usize| {
-            let Reached { curvature, threads, .. } = here[k];
-            let more = Stretch::without_shear(threads.warp + 0.01, threads.weft);
-            let now = pressure_kpa(pressure_model, fabric, &curvature, &threads);
-            (pressure_kpa(pressure_model, fabric, &curvature, &more) - now) / 0.01
-        };
-        if self.answers.is_none() {
-            // Away from the nearer end of the range, where the function is held.
-            let step = |asked: f64| if asked > 0.5 * fabric.max_strain { -0.01 } else { 0.01 };
-            let solved: Vec<(usize, f64)> = (0..count)
-                .filter_map(|i| Some((i, step(self.asked[i]?))))
-                .filter(|_| count <= MOST_SOLVED)
-                .collect();
-            let others: Vec<Targets> = solved
-                .iter()
-                .map(|&(i, step)| {
-                    let mut other = self.asked.clone();
-                    other[i] = other[i].map(|asked| asked + step);
-                    self.with(coordinates, &other)
-                })
-                .collect();
-            let mut pressures = vec![vec![0.0; annotations.len()]; count];
-            if count > MOST_SOLVED {
-                for (group, pressures) in self.groups.iter().zip(&mut pressures) {
-                    group.iter().for_each(|&k| pressures[k] = own(k));
-                }
-            }
-            // A few at a time, between which the job can be cancelled.
-            let moved = others.chunks(AT_ONCE).flat_map(answers);
-            let mut motions = vec![Vec::new(); count];
-            for (&(i, step), moved) in solved.iter().zip(moved) {
-                let there: Vec<DVec2> =
-                    coordinates.iter().zip(&moved).map(|(&p, &d)| p + d).collect();
-                for (k, there) in self.pressures(&self.reader.read(&there)).into_iter().enumerate()
-                {
-                    pressures[i][k] = (there - got[k]) / step;
-                }
-                motions[i] = moved.into_iter().map(|d| d / step).collect();
-            }
-            self.answers = Some(Arc::new(Answers {
-                groups: self.groups.clone(),
-                points: annotations.iter().map(|annotation| annotation.point).collect(),
-                fabric: fabric.clone(),
-                pressure_model,
-                pressures,
-                motions,
-            }));
+        let (mut missed, mut promised) = (0.0, 0.0);
+        for k in (0..got.len()).filter(|&k| counts[k]) {
+            let asked = self.input.annotations[k].kpa;
+            missed += (got[k] - asked).powi(2);
+            promised += (PROMISED * asked.max(1.0)).powi(2);
         }
+        let misses = missed > promised;
+        let worse = misses && self.course.worse(missed, near);
+        // Each correction that made it worse halves the reach of the next.
+        if worse {
+            self.course.reach = 0.5 * self.course.last.min(self.course.reach);
+        } else if self.course.missed.is_some() {
+            self.course.reach *= 2.0;
+        }
+        if near && self.course.best.as_ref().is_none_or(|(least, _)| missed < *least) {
+            self.course.best = Some((missed, self.asked.clone()));
+        }
+        let agree = self.agree(&got, &counts);
+        let count = self.groups.len();
+        let mut correction =
+            Correction { changes: vec![0.0; count], settled: agree, worse, lost: false };
+        if self.rounds >= MOST_ROUNDS {
+            self.give_up(&mut correction);
+            return correction;
+        }
+        if worse {
+            self.answers = None;
+        }
+        loop {
+            if self.answers.is_none() {
+                self.answers = Some(Arc::new(self.answers(coordinates, &here, &got, &answers)));
+                self.course.near = near;
+            }
+            correction.changes = self.changes(&here, &got, &counts);
+            let most = correction.most();
+            if most > self.course.reach {
+                let share = self.course.reach / most;
+                correction.changes.iter_mut().for_each(|change| *change *= share);
+            }
+            // Nothing more to be done: by answers from elsewhere that is not to be believed.
+            if !correction.counts() && misses && near && !self.course.near {
+                self.answers = None;
+                continue;
+            }
+            break;
+        }
+        correction.settled = agree || !correction.counts();
+        let least = self.course.best.as_ref().map_or(missed, |(least, _)| *least);
+        if correction.settled && misses && least < GOOD_AS_BEST * missed {
+            // It has settled where less is met than was.
+            self.rounds = MOST_ROUNDS;
+            self.give_up(&mut correction);
+            return correction;
+        }
+        self.course.missed = Some((missed, correction.counts()));
+        self.course.last = correction.most();
+        correction
+    }
+
+    /// Back to the best targets there were.
+    fn give_up(&self, correction: &mut Correction) {
+        let Some((_, best)) = &self.course.best else { return };
+        for ((change, best), asked) in correction.changes.iter_mut().zip(best).zip(&self.asked) {
+            *change = best.zip(*asked).map_or(0.0, |(best, asked)| best - asked);
+        }
+        correction.lost = !correction.settled;
+        correction.settled |= !correction.counts();
+    }
+
+    /// Pressure per strain of a thread by itself, in kPa.
+    fn own(&self, reached: &Reached) -> f64 {
+        let FitInput { fabric, pressure_model, .. } = *self.input;
+        let Reached { curvature, threads, .. } = reached;
+        let more = Stretch::without_shear(threads.warp + 0.01, threads.weft);
+        let now = pressure_kpa(pressure_model, fabric, curvature, threads);
+        (pressure_kpa(pressure_model, fabric, curvature, &more) - now) / 0.01
+    }
+
+    /// How pressures and pattern answer to the targets here.
+    fn answers(
+        &self,
+        coordinates: &[DVec2],
+        here: &[Reached],
+        got: &[f64],
+        answers: impl Fn(&[Targets]) -> Vec<Vec<DVec2>>,
+    ) -> Answers {
+        let FitInput { annotations, fabric, pressure_model, .. } = *self.input;
+        let count = self.groups.len();
+        // Away from the nearer end of the range, where the function is held.
+        let step = |asked: f64| if asked > 0.5 * fabric.max_strain { -PROBE } else { PROBE };
+        let solved: Vec<(usize, f64)> = (0..count)
+            .filter_map(|i| Some((i, step(self.asked[i]?))))
+            .filter(|_| count <= MOST_SOLVED)
+            .collect();
+        let others: Vec<Targets> = solved
+            .iter()
+            .map(|&(i, step)| {
+                let mut other = self.asked.clone();
+                other[i] = other[i].map(|asked| asked + step);
+                self.with(coordinates, &other)
+            })
+            .collect();
+        let mut pressures = vec![vec![0.0; annotations.len()]; count];
+        if count > MOST_SOLVED {
+            for (group, pressures) in self.groups.iter().zip(&mut pressures) {
+                group.iter().for_each(|&k| pressures[k] = self.own(&here[k]));
+            }
+        }
+        // A few at a time, between which the job can be cancelled.
+        let moved = others.chunks(AT_ONCE).flat_map(answers);
+        let mut motions = vec![Vec::new(); count];
+        for (&(i, step), moved) in solved.iter().zip(moved) {
+            let there: Vec<DVec2> = coordinates.iter().zip(&moved).map(|(&p, &d)| p + d).collect();
+            for (k, there) in self.pressures(&self.reader.read(&there)).into_iter().enumerate() {
+                pressures[i][k] = (there - got[k]) / step;
+            }
+            motions[i] = moved.into_iter().map(|d| d / step).collect();
+        }
+        Answers {
+            groups: self.groups.clone(),
+            points: annotations.iter().map(|annotation| annotation.point).collect(),
+            fabric: fabric.clone(),
+            pressure_model,
+            pressures,
+            motions,
+        }
+    }
+
+    /// The changes that bring the pressures nearest to what was asked, by the answers.
+    fn changes(&self, here: &[Reached], got: &[f64], counts: &[bool]) -> Vec<f64> {
+        let FitInput { annotations, fabric, .. } = *self.input;
+        let count = self.groups.len();
         let answers = self.answers.as_ref().map_or(&[][..], |answers| &answers.pressures);
         let mut problem = LeastSquares::new(count);
         for k in (0..annotations.len()).filter(|&k| counts[k]) {
@@ -389,16 +531,14 @@ impl<'a> Threads<'a> {
                     return [0.0, 0.0];
                 };
                 let wanted = wanted.clamp(0.0, fabric.max_strain);
+                let own = self.groups[i].iter().map(|&k| self.own(&here[k]).powi(2));
                 let mut row = vec![0.0; count];
-                row[i] = self.groups[i].iter().map(|&k| own(k).powi(2)).sum::<f64>().sqrt();
+                row[i] = own.sum::<f64>().sqrt();
                 problem.add(&row, row[i] * (wanted - asked), EFFORT);
                 [-asked, fabric.max_strain - asked]
             })
             .collect();
-        let changes = problem.solve(&limits);
-        let mut correction = Correction { changes, settled: false };
-        correction.settled = !correction.counts() || self.agree(&got, &counts);
-        correction
+        problem.solve(&limits)
     }
 }
 

@@ -163,7 +163,7 @@ impl<'a> Run<'a> {
         };
         if known {
             // The fabric is where the earlier targets have brought it.
-            let correction = run.correction();
+            let correction = run.correction(true);
             run.take(&correction);
         }
         run
@@ -193,8 +193,12 @@ impl<'a> Run<'a> {
             self.last = step.largest;
             self.far = step.largest > FAR_MM;
             let correction = (self.model.is_some() && self.threads.corrects() && self.ripe(&step))
-                .then(|| self.correction());
+                .then(|| self.correction(step.largest < NEAR_MM));
             let settled = correction.as_ref().map_or(!self.threads.corrects(), |c| c.settled);
+            let lost = correction.as_ref().is_some_and(|c| c.lost);
+            if correction.as_ref().is_some_and(|c| c.worse) {
+                self.anderson.forget();
+            }
             let rests = step.largest < parameters.newton_tolerance && settled;
             match correction {
                 Some(correction) if !rests => self.take(&correction),
@@ -208,7 +212,7 @@ impl<'a> Run<'a> {
             resting = if rests { resting + 1 } else { 0 };
             let stays = further < FURTHER * parameters.newton_tolerance || resting >= RESTING;
             if rests && stays {
-                break Stopped::Gradient;
+                break if lost { Stopped::Unsettled } else { Stopped::Gradient };
             }
             if self.iterations >= parameters.newton_steps || advance == Advance::Nowhere {
                 break Stopped::MaxIterations;
@@ -355,10 +359,20 @@ impl<'a> Run<'a> {
             }
             length *= 0.5;
         }
-        // A Hessian from elsewhere may be the reason.
-        let retry = self.kept;
+        if self.kept {
+            // A Hessian from elsewhere may be the reason.
+            self.forget();
+            return Advance::Searched;
+        }
+        // What follows the fabric may be: as far as a step is taken as it is.
+        let length = 0.5 * longest.min(TRUSTED_MM / step.largest);
+        if step.largest.is_finite() && length > 0.0 {
+            self.coordinates = tried(length);
+            self.stale = true;
+            return Advance::Searched;
+        }
         self.forget();
-        if retry { Advance::Searched } else { Advance::Nowhere }
+        Advance::Nowhere
     }
 
     /// The Hessian no longer serves.
@@ -377,7 +391,7 @@ impl<'a> Run<'a> {
     }
 
     /// How the targets are to be corrected here.
-    fn correction(&mut self) -> Correction {
+    fn correction(&mut self, near: bool) -> Correction {
         if self.stale {
             self.threads.forget_answers();
         }
@@ -387,7 +401,7 @@ impl<'a> Run<'a> {
             problem.solver.triangles.gradient(coordinates, &problem.springs, &wanted, &[])
         };
         let now = self.threads.targets(coordinates);
-        self.threads.correction(coordinates, |others| {
+        self.threads.correction(coordinates, near, |others| {
             let Some(model) = model else { return Vec::new() };
             if problem.ask().is_err() {
                 return Vec::new();

@@ -145,6 +145,26 @@ fn a_plane_with_a_wanted_strain_comes_back_narrower_to_a_millionth() {
 }
 
 #[test]
+fn a_place_that_becomes_flat_along_its_thread_keeps_no_target() {
+    let (n, rows, r) = (48, 24, 45.0);
+    let place = |s: f64, t: f64| DVec3::new(r * (TAU * s).cos(), r * (TAU * s).sin(), 120.0 * t);
+    let disk = sheet(rows, n, false, place);
+    let omega: Vec<DVec2> = (0..disk.points().len())
+        .map(|k| DVec2::new((k % (n + 1)) as f64 * TAU * r / n as f64, disk.points()[k].z))
+        .collect();
+    let mut case = Case::new(disk, omega, [place(0.5, 1.0), place(0.5, 0.0)]);
+    case.annotations = vec![wish(&case.disk, place(0.5, 0.5), DVec3::Z, 0.15)];
+    let input = case.input();
+    let along: Vec<DVec2> = case.omega.iter().map(|p| p.perp()).collect();
+    let mut threads = super::pressures::Threads::new(&input, &case.omega);
+    threads.correction(&case.omega, true, |_| Vec::new());
+    let asked = |threads: &super::pressures::Threads<'_>| threads.targets(&along).threads[0].asked;
+    assert!(asked(&threads).is_some());
+    threads.correction(&along, true, |_| Vec::new());
+    assert_eq!(asked(&threads), None);
+}
+
+#[test]
 fn a_slit_cylinder_and_a_cone_come_back_as_their_developments() {
     // Both are intrinsically flat polyhedra: the development is exact, not only in the limit.
     let (n, rows) = (48, 16);
