@@ -141,7 +141,7 @@ fn on_edge(h: HalfEdgeId, part: f64) -> SurfacePoint {
 }
 
 /// Where the boundary crosses the plane through the middle that holds the long axis and is upright
-/// on the piece, farthest out on both sides.
+/// on the piece, farthest out on both sides; the farthest point where an end is closed.
 fn axis_ends(disk: &Surface) -> Result<[SurfacePoint; 2], SeamError> {
     let (middle, spread) = moments(disk);
     let axis = principal(spread);
@@ -160,11 +160,10 @@ fn axis_ends(disk: &Surface) -> Result<[SurfacePoint; 2], SeamError> {
             *side = Some((out.abs(), on_edge(h, part)));
         }
     }
-    let [Some((ahead, first)), Some((behind, second))] = far else {
-        return Err(SeamError::Internal(
-            "the piece has no boundary at the ends of its axis".to_owned(),
-        ));
-    };
+    let [ahead, behind] = far;
+    let lost = || SeamError::Internal("the piece has no extent along its axis".to_owned());
+    let (ahead, first) = ahead.or_else(|| farthest(disk, middle, axis)).ok_or_else(lost)?;
+    let (behind, second) = behind.or_else(|| farthest(disk, middle, -axis)).ok_or_else(lost)?;
     // The middle of the area lies nearer to the wider end; of equal ones the first is the one
     // nearer to the first vertex, which stays so however the limb is turned in space.
     let length = ahead + behind;
@@ -174,6 +173,14 @@ fn axis_ends(disk: &Surface) -> Result<[SurfacePoint; 2], SeamError> {
         (disk.points()[0] - middle).dot(axis) >= 0.0
     };
     Ok(if first_is_ahead { [first, second] } else { [second, first] })
+}
+
+/// The vertex farthest along a direction: the toe of a sock, whose far end is closed.
+fn farthest(disk: &Surface, middle: DVec3, along: DVec3) -> Option<(f64, SurfacePoint)> {
+    let out = |v: VertexId| (disk.point(v) - middle).dot(along);
+    let v = disk.vertex_ids().reduce(|best, v| if out(v) > out(best) { v } else { best })?;
+    let h = disk.outgoing(v).next()?;
+    Some((out(v), on_edge(h, 0.0)))
 }
 
 /// The middle of the area and its second moments about it.
@@ -250,6 +257,35 @@ mod tests {
                 assert!(off.abs() < 0.02, "{mesh:?} {off}");
             }
         }
+    }
+
+    #[test]
+    fn a_sock_is_marked_from_its_opening_to_its_toe() {
+        let (sides, rows) = (24, 30);
+        let ring = |k: usize| {
+            let far = 150.0 * k as f64 / rows as f64;
+            let radius = 40.0 * (1.0 - (far / 150.0).powi(4)).sqrt();
+            (0..sides).map(move |i| {
+                let (sin, cos) = (TAU * i as f64 / sides as f64).sin_cos();
+                DVec3::new(radius * cos, radius * sin, far)
+            })
+        };
+        let mut points: Vec<DVec3> = (0..rows).flat_map(ring).collect();
+        points.push(DVec3::new(0.0, 0.0, 150.0));
+        let id = |k: usize, i: usize| VertexId::new(k * sides + i % sides);
+        let mut triangles = Vec::new();
+        for i in 0..sides {
+            for k in 0..rows - 1 {
+                triangles.push([id(k, i), id(k, i + 1), id(k + 1, i + 1)]);
+                triangles.push([id(k, i), id(k + 1, i + 1), id(k + 1, i)]);
+            }
+            triangles.push([id(rows - 1, i), id(rows - 1, i + 1), VertexId::new(rows * sides)]);
+        }
+        let cut = open_to_disk(&Surface::new(points, triangles).unwrap(), &[]).unwrap();
+        let (markers, warnings) = place(&cut, None).unwrap();
+        let [opening, toe] = markers.points.map(|p| p.position(&cut.disk));
+        assert!(opening.z.abs() < 1e-9 && toe.z > 140.0, "{opening} {toe}");
+        assert_eq!(warnings[0].code, "orientation_automatic");
     }
 
     #[test]

@@ -19,8 +19,10 @@
 //! flattened in one piece; the pattern says where.
 
 mod anderson;
+mod course;
 mod eigen;
 mod element;
+mod least_squares;
 mod pressures;
 mod problem;
 mod run;

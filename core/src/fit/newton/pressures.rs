@@ -17,6 +17,8 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use super::course::Course;
+use super::least_squares::LeastSquares;
 use crate::design::{Fabric, PressureModel};
 use crate::fit::FitInput;
 use crate::geometry::SurfacePoint;
@@ -112,45 +114,6 @@ pub struct Threads<'a> {
     answers: Option<Arc<Answers>>,
     rounds: usize,
     course: Course,
-}
-
-/// The first correction changes no target by more: the fabric is still on its way.
-const FIRST_REACH: f64 = 0.1;
-
-/// Of what is missed, kPa²: where less was missed before, it is gone back there.
-const GOOD_AS_BEST: f64 = 0.8;
-
-/// How the corrections have gone so far.
-struct Course {
-    /// What was wanted of the pressures and missed at the last correction, in kPa², and whether that changed a
-    /// target.
-    missed: Option<(f64, bool)>,
-    /// The least of it while the fabric was nearly at rest, with the targets then.
-    best: Option<(f64, Vec<Option<f64>>)>,
-    /// The largest change of a target at the last correction.
-    last: f64,
-    /// A target changes by no more at a time.
-    reach: f64,
-    /// Whether the answers were read where the fabric was nearly at rest.
-    near: bool,
-}
-
-impl Default for Course {
-    fn default() -> Self {
-        Self { missed: None, best: None, last: 0.0, reach: FIRST_REACH, near: false }
-    }
-}
-
-impl Course {
-    /// Whether the last correction has made worse what is missed. On its way the fabric may miss more for a
-    /// while.
-    fn worse(&self, missed: f64, near: bool) -> bool {
-        /// So many times as much.
-        const ON_ITS_WAY: f64 = 1.5;
-        self.missed.is_some_and(|(before, changed)| {
-            changed && missed > before * if near { 1.0 } else { ON_ITS_WAY }
-        })
-    }
 }
 
 /// Corrections are given up after so many: a pressure that has not come by then does not.
@@ -395,15 +358,8 @@ impl<'a> Threads<'a> {
         }
         let misses = missed > promised;
         let worse = misses && self.course.worse(missed, near);
-        // Each correction that made it worse halves the reach of the next.
-        if worse {
-            self.course.reach = 0.5 * self.course.last.min(self.course.reach);
-        } else if self.course.missed.is_some() {
-            self.course.reach *= 2.0;
-        }
-        if near && self.course.best.as_ref().is_none_or(|(least, _)| missed < *least) {
-            self.course.best = Some((missed, self.asked.clone()));
-        }
+        self.course.adapt(worse);
+        self.course.remember(missed, near, &self.asked);
         let agree = self.agree(&got, &counts);
         let count = self.groups.len();
         let mut correction =
@@ -434,8 +390,7 @@ impl<'a> Threads<'a> {
             break;
         }
         correction.settled = agree || !correction.counts();
-        let least = self.course.best.as_ref().map_or(missed, |(least, _)| *least);
-        if correction.settled && misses && least < GOOD_AS_BEST * missed {
+        if correction.settled && misses && self.course.was_better(missed) {
             // It has settled where less is met than was.
             self.rounds = MOST_ROUNDS;
             self.give_up(&mut correction);
@@ -546,67 +501,4 @@ impl<'a> Threads<'a> {
 fn kpa(model: PressureModel, fabric: &Fabric, reached: &Reached) -> f64 {
     let curvature: &LocalCurvature = &reached.curvature;
     pressure_kpa(model, fabric, curvature, &reached.threads)
-}
-
-/// A small least-squares problem with bounds.
-struct LeastSquares {
-    normal: Vec<Vec<f64>>,
-    right: Vec<f64>,
-}
-
-impl LeastSquares {
-    fn new(unknowns: usize) -> Self {
-        Self { normal: vec![vec![0.0; unknowns]; unknowns], right: vec![0.0; unknowns] }
-    }
-
-    /// Adds weight (row · x − value)².
-    fn add(&mut self, row: &[f64], value: f64, weight: f64) {
-        for (i, a) in row.iter().enumerate() {
-            self.right[i] += weight * a * value;
-            for (j, b) in row.iter().enumerate() {
-                self.normal[i][j] += weight * a * b;
-            }
-        }
-    }
-
-    /// The minimum within the limits, coordinate by coordinate: the problem is convex, so that this
-    /// comes to the one minimum there is.
-    fn solve(&self, limits: &[[f64; 2]]) -> Vec<f64> {
-        let mut x = vec![0.0; self.right.len()];
-        for _ in 0..10_000 {
-            let mut change = 0.0f64;
-            for i in 0..x.len() {
-                let diagonal = self.normal[i][i];
-                if diagonal <= 0.0 {
-                    continue;
-                }
-                let sum: f64 = self.normal[i].iter().zip(&x).map(|(a, b)| a * b).sum();
-                let next =
-                    (x[i] + (self.right[i] - sum) / diagonal).clamp(limits[i][0], limits[i][1]);
-                change = change.max((next - x[i]).abs());
-                x[i] = next;
-            }
-            if change < 1e-10 {
-                break;
-            }
-        }
-        x
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn least_squares_with_a_bound_by_hand() {
-        // x + y = 3 and x − y = 1: x = 2, y = 1; with x ≤ 1.5 the best y is 1.
-        let mut problem = LeastSquares::new(2);
-        problem.add(&[1.0, 1.0], 3.0, 1.0);
-        problem.add(&[1.0, -1.0], 1.0, 1.0);
-        let free = problem.solve(&[[-9.0, 9.0], [-9.0, 9.0]]);
-        assert!((free[0] - 2.0).abs() < 1e-9 && (free[1] - 1.0).abs() < 1e-9);
-        let held = problem.solve(&[[-9.0, 1.5], [-9.0, 9.0]]);
-        assert!((held[0] - 1.5).abs() < 1e-9 && (held[1] - 1.0).abs() < 1e-9);
-    }
 }

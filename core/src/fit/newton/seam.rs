@@ -68,7 +68,7 @@ impl Sewn {
 
     /// κ in N.
     fn stiffness(fabric: &Fabric) -> f64 {
-        STIFFNESS_MM * fabric.warp.max(fabric.weft)
+        STIFFNESS_MM * fabric.warp.max(fabric.weft).max(fabric.diagonal)
     }
 
     /// l − r, in mm.

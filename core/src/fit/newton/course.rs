@@ -1,0 +1,84 @@
+//! How the corrections of the targets go: what makes them stop short of running away.
+
+/// The first correction changes no target by more: the fabric is still on its way.
+const FIRST_REACH: f64 = 0.1;
+
+/// Of what is missed, kPa²: where less was missed before, it is gone back there.
+const GOOD_AS_BEST: f64 = 0.8;
+
+/// How the corrections have gone so far.
+pub struct Course {
+    /// What was wanted of the pressures and missed at the last correction, in kPa², and whether that changed a
+    /// target.
+    pub missed: Option<(f64, bool)>,
+    /// The least of it while the fabric was nearly at rest, with the targets then.
+    pub best: Option<(f64, Vec<Option<f64>>)>,
+    /// The largest change of a target at the last correction.
+    pub last: f64,
+    /// A target changes by no more at a time.
+    pub reach: f64,
+    /// Whether the answers were read where the fabric was nearly at rest.
+    pub near: bool,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self { missed: None, best: None, last: 0.0, reach: FIRST_REACH, near: false }
+    }
+}
+
+impl Course {
+    /// Whether the last correction has made worse what is missed. On its way the fabric may miss more for a
+    /// while.
+    pub fn worse(&self, missed: f64, near: bool) -> bool {
+        /// So many times as much.
+        const ON_ITS_WAY: f64 = 1.5;
+        self.missed.is_some_and(|(before, changed)| {
+            changed && missed > before * if near { 1.0 } else { ON_ITS_WAY }
+        })
+    }
+
+    /// Each correction that made it worse halves the reach of the next.
+    pub fn adapt(&mut self, worse: bool) {
+        if worse {
+            self.reach = 0.5 * self.last.min(self.reach);
+        } else if self.missed.is_some() {
+            self.reach *= 2.0;
+        }
+    }
+
+    /// Remembers targets with which less is missed than with any before.
+    pub fn remember(&mut self, missed: f64, near: bool, targets: &[Option<f64>]) {
+        if near && self.best.as_ref().is_none_or(|(least, _)| missed < *least) {
+            self.best = Some((missed, targets.to_vec()));
+        }
+    }
+
+    /// Whether clearly less was missed before.
+    pub fn was_better(&self, missed: f64) -> bool {
+        self.best.as_ref().is_some_and(|(least, _)| *least < GOOD_AS_BEST * missed)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_correction_that_made_it_worse_halves_the_next_and_the_best_is_kept() {
+        let mut course = Course::default();
+        for (missed, targets) in [(1.0, 0.1), (4.0, 0.2)] {
+            let worse = course.worse(missed, true);
+            assert_eq!(worse, missed > 1.0);
+            course.adapt(worse);
+            course.remember(missed, true, &[Some(targets)]);
+            (course.missed, course.last) = (Some((missed, true)), 0.06);
+        }
+        assert_eq!(course.reach, 0.03);
+        assert_eq!(course.best, Some((1.0, vec![Some(0.1)])));
+        assert!(course.was_better(4.0) && !course.was_better(1.2));
+        // Far from rest twice as much is no bad sign, and nothing is remembered.
+        course.missed = Some((1.0, true));
+        assert!(!course.worse(1.4, false) && course.worse(1.4, true));
+    }
+}
