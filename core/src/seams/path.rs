@@ -95,7 +95,9 @@ impl<'a> Space<'a> {
         to: VertexId,
         shores: [&[VertexId]; 2],
     ) -> Result<Option<(Path, Taut)>, SeamError> {
-        let Some(vertices) = self.along_edges(&[from], &[to]) else { return Ok(None) };
+        let Some(vertices) = self.along_edges(&[from], &[to], &[from, to]) else {
+            return Ok(None);
+        };
         let mut path = self.widen(&vertices)?;
         let mut taut = self.tighten(&mut path)?;
         self.trim(&mut path, &mut taut, shores[1])?;
@@ -113,7 +115,7 @@ impl<'a> Space<'a> {
         from: &[VertexId],
         to: &[VertexId],
     ) -> Result<Option<(Path, Taut)>, SeamError> {
-        let Some(vertices) = self.along_edges(from, to) else { return Ok(None) };
+        let Some(vertices) = self.along_edges(from, to, &[]) else { return Ok(None) };
         let mut path = self.widen(&vertices)?;
         let mut taut = self.tighten(&mut path)?;
         // Each end in turn; two or three rounds do, unless both ends follow one another.
@@ -131,8 +133,14 @@ impl<'a> Space<'a> {
     }
 
     /// Dijkstra's shortest path over edges. Lengths are whole numbers, so that equal paths stay
-    /// equal when the limb is turned in space; ties go to the lowest index.
-    fn along_edges(&self, from: &[VertexId], to: &[VertexId]) -> Option<Vec<VertexId>> {
+    /// equal when the limb is turned in space; ties go to the lowest index. `ends` may lie beside what is
+    /// forbidden: a path has a strip of triangles beside it only between its ends.
+    fn along_edges(
+        &self,
+        from: &[VertexId],
+        to: &[VertexId],
+        ends: &[VertexId],
+    ) -> Option<Vec<VertexId>> {
         let mesh = self.mesh;
         let count = mesh.vertex_count();
         // The strip beside the path takes in the neighbours' triangles.
@@ -143,6 +151,9 @@ impl<'a> Space<'a> {
                     blocked[v.index()] = true;
                 }
             }
+        }
+        for v in ends {
+            blocked[v.index()] = self.forbidden[v.index()];
         }
         let mut target = vec![false; count];
         for v in to {
