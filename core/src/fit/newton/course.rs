@@ -1,6 +1,12 @@
 //! How the corrections of the targets go: what makes them stop short of running away.
 
-/// The first correction changes no target by more: the fabric is still on its way.
+/// A step that moves no vertex by more leaves the fabric nearly at rest, in mm.
+pub const NEAR_MM: f64 = 1.0;
+
+/// After one as small as this it is at rest, as far as pressures go.
+const REST_MM: f64 = 0.1;
+
+/// No correction changes a target by more.
 const FIRST_REACH: f64 = 0.1;
 
 /// Of what is missed, kPa²: where less was missed before, it is gone back there.
@@ -11,7 +17,7 @@ pub struct Course {
     /// What was wanted of the pressures and missed at the last correction, in kPa², and whether that changed a
     /// target.
     pub missed: Option<(f64, bool)>,
-    /// The least of it while the fabric was nearly at rest, with the targets then.
+    /// The least of it while the fabric was at rest, with the targets then.
     pub best: Option<(f64, Vec<Option<f64>>)>,
     /// The largest change of a target at the last correction.
     pub last: f64,
@@ -43,13 +49,13 @@ impl Course {
         if worse {
             self.reach = 0.5 * self.last.min(self.reach);
         } else if self.missed.is_some() {
-            self.reach *= 2.0;
+            self.reach = (2.0 * self.reach).min(FIRST_REACH);
         }
     }
 
-    /// Remembers targets with which less is missed than with any before.
-    pub fn remember(&mut self, missed: f64, near: bool, targets: &[Option<f64>]) {
-        if near && self.best.as_ref().is_none_or(|(least, _)| missed < *least) {
+    /// Remembers targets with which at rest less is missed than with any before.
+    pub fn remember(&mut self, missed: f64, largest: f64, targets: &[Option<f64>]) {
+        if largest < REST_MM && self.best.as_ref().is_none_or(|(least, _)| missed < *least) {
             self.best = Some((missed, targets.to_vec()));
         }
     }
@@ -71,7 +77,7 @@ mod tests {
             let worse = course.worse(missed, true);
             assert_eq!(worse, missed > 1.0);
             course.adapt(worse);
-            course.remember(missed, true, &[Some(targets)]);
+            course.remember(missed, 0.05, &[Some(targets)]);
             (course.missed, course.last) = (Some((missed, true)), 0.06);
         }
         assert_eq!(course.reach, 0.03);

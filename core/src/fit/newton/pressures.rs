@@ -17,13 +17,13 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::course::Course;
+use super::course::{Course, NEAR_MM};
 use super::least_squares::LeastSquares;
 use crate::design::{Fabric, PressureModel};
 use crate::fit::FitInput;
 use crate::geometry::SurfacePoint;
 use crate::pressure::{
-    FLAT_CURVATURE, LocalCurvature, Reached, Reader, Stretch, Targets, ThreadTarget, Wish,
+    Annotation, FLAT_CURVATURE, Reached, Reader, Stretch, Targets, ThreadTarget, Wish,
     pressing_curvature, pressure_kpa, warp_strain,
 };
 
@@ -114,6 +114,8 @@ pub struct Threads<'a> {
     answers: Option<Arc<Answers>>,
     rounds: usize,
     course: Course,
+    /// Whether corrections were given up.
+    lost: bool,
 }
 
 /// Corrections are given up after so many: a pressure that has not come by then does not.
@@ -132,6 +134,7 @@ impl<'a> Threads<'a> {
             answers: None,
             rounds: 0,
             course: Course::default(),
+            lost: false,
         };
         threads.find(coordinates, None);
         threads
@@ -175,7 +178,7 @@ impl<'a> Threads<'a> {
     }
 
     /// Replaces them; they stay within their range.
-    pub fn ask(&mut self, targets: impl Iterator<Item = f64>) {
+    fn ask(&mut self, targets: impl Iterator<Item = f64>) {
         let limit = self.input.fabric.max_strain;
         for (asked, target) in self.asked.iter_mut().zip(targets) {
             *asked = asked.map(|_| target.clamp(0.0, limit));
@@ -314,9 +317,28 @@ impl<'a> Threads<'a> {
         Targets::new(threads, wishes, [low, high], fabric.max_strain, parameters.row_spacing)
     }
 
+    /// Pressures with the whole threads' strains, in kPa; of a slack thread less than nothing by what it lacks of
+    /// its length, so that a correction knows the way, unless nothing is asked.
     fn pressures(&self, reached: &[Reached]) -> Vec<f64> {
-        let FitInput { fabric, pressure_model, .. } = *self.input;
-        reached.iter().map(|r| kpa(pressure_model, fabric, r)).collect()
+        let FitInput { annotations, fabric, pressure_model, .. } = *self.input;
+        let kpa = |reached: &Reached, threads: &Stretch| {
+            pressure_kpa(pressure_model, fabric, &reached.curvature, threads)
+        };
+        let lacking = |reached: &Reached| {
+            let slack = reached.threads.warp;
+            let [taut, more] =
+                [0.0, PROBE].map(|warp| Stretch::without_shear(warp, reached.threads.weft));
+            let taut = kpa(reached, &taut);
+            taut + slack * (kpa(reached, &more) - taut) / PROBE
+        };
+        let pressure = |(reached, annotation): (&Reached, &Annotation)| {
+            if reached.threads.warp < 0.0 && annotation.kpa > 0.0 {
+                lacking(reached)
+            } else {
+                kpa(reached, &reached.threads)
+            }
+        };
+        reached.iter().zip(annotations).map(pressure).collect()
     }
 
     /// Which places count: one that no tension presses on does not pull at its thread.
@@ -336,13 +358,13 @@ impl<'a> Threads<'a> {
             .all(|((a, &got), &counts)| !counts || (got - a.kpa).abs() <= AGREE * a.kpa.max(1.0))
     }
 
-    /// How the targets are to be corrected. `near` says whether the fabric is nearly at rest; `answers` gives
+    /// How the targets are to be corrected after a step that moved a vertex by `largest` mm. `answers` gives
     /// how the pattern moves when the present targets are replaced by each of others, or nothing if the job is
     /// cancelled: then it is of no use.
     pub fn correction(
         &mut self,
         coordinates: &[DVec2],
-        near: bool,
+        largest: f64,
         answers: impl Fn(&[Targets]) -> Vec<Vec<DVec2>>,
     ) -> Correction {
         let here = self.reader.read(coordinates);
@@ -357,16 +379,23 @@ impl<'a> Threads<'a> {
             promised += (PROMISED * asked.max(1.0)).powi(2);
         }
         let misses = missed > promised;
+        let near = largest < NEAR_MM;
         let worse = misses && self.course.worse(missed, near);
-        self.course.adapt(worse);
-        self.course.remember(missed, near, &self.asked);
-        let agree = self.agree(&got, &counts);
-        let count = self.groups.len();
+        let changes = vec![0.0; self.groups.len()];
         let mut correction =
-            Correction { changes: vec![0.0; count], settled: agree, worse, lost: false };
-        if self.rounds >= MOST_ROUNDS {
-            self.give_up(&mut correction);
+            Correction { changes, settled: true, worse, lost: self.lost && misses };
+        if self.lost {
             return correction;
+        }
+        self.course.adapt(worse);
+        self.course.remember(missed, largest, &self.asked);
+        if self.agree(&got, &counts) {
+            self.course.missed = None;
+            return correction;
+        }
+        if self.rounds > MOST_ROUNDS {
+            self.give_up();
+            return Correction { settled: false, worse: true, ..correction };
         }
         if worse {
             self.answers = None;
@@ -383,41 +412,55 @@ impl<'a> Threads<'a> {
                 correction.changes.iter_mut().for_each(|change| *change *= share);
             }
             // Nothing more to be done: by answers from elsewhere that is not to be believed.
-            if !correction.counts() && misses && near && !self.course.near {
-                self.answers = None;
-                continue;
+            if correction.counts() || !misses || !near || self.course.near {
+                break;
             }
-            break;
+            self.answers = None;
         }
-        correction.settled = agree || !correction.counts();
+        correction.settled = !correction.counts();
         if correction.settled && misses && self.course.was_better(missed) {
-            // It has settled where less is met than was.
-            self.rounds = MOST_ROUNDS;
-            self.give_up(&mut correction);
-            return correction;
+            // It has settled where more is missed than was.
+            self.give_up();
+            return Correction { settled: false, worse: true, ..correction };
         }
         self.course.missed = Some((missed, correction.counts()));
         self.course.last = correction.most();
         correction
     }
 
-    /// Back to the best targets there were.
-    fn give_up(&self, correction: &mut Correction) {
-        let Some((_, best)) = &self.course.best else { return };
-        for ((change, best), asked) in correction.changes.iter_mut().zip(best).zip(&self.asked) {
-            *change = best.zip(*asked).map_or(0.0, |(best, asked)| best - asked);
+    /// No more corrections: back to the targets that came nearest to the pressures, or to those of Eq. (3).
+    pub fn give_up(&mut self) {
+        let limit = self.input.fabric.max_strain;
+        self.lost = true;
+        self.asked = match &self.course.best {
+            Some((_, best)) => best.clone(),
+            None => self.wanted.iter().map(|w| w.map(|w| w.clamp(0.0, limit))).collect(),
+        };
+    }
+
+    /// Replaces the targets by what the acceleration makes of them, no farther than a correction may go.
+    pub fn accelerate(&mut self, targets: impl Iterator<Item = f64>) {
+        if self.lost {
+            return;
         }
-        correction.lost = !correction.settled;
-        correction.settled |= !correction.counts();
+        let reach = self.course.reach;
+        let within: Vec<f64> = self
+            .asked()
+            .zip(targets)
+            .map(|(asked, target)| target.clamp(asked - reach, asked + reach))
+            .collect();
+        self.ask(within.into_iter());
     }
 
     /// Pressure per strain of a thread by itself, in kPa.
     fn own(&self, reached: &Reached) -> f64 {
         let FitInput { fabric, pressure_model, .. } = *self.input;
         let Reached { curvature, threads, .. } = reached;
-        let more = Stretch::without_shear(threads.warp + 0.01, threads.weft);
-        let now = pressure_kpa(pressure_model, fabric, curvature, threads);
-        (pressure_kpa(pressure_model, fabric, curvature, &more) - now) / 0.01
+        let [now, more] = [0.0, 0.01].map(|more| {
+            let stretch = Stretch::without_shear(threads.warp.max(0.0) + more, threads.weft);
+            pressure_kpa(pressure_model, fabric, curvature, &stretch)
+        });
+        (more - now) / 0.01
     }
 
     /// How pressures and pattern answer to the targets here.
@@ -495,10 +538,4 @@ impl<'a> Threads<'a> {
             .collect();
         problem.solve(&limits)
     }
-}
-
-/// Pressure with the whole threads' strains, in kPa.
-fn kpa(model: PressureModel, fabric: &Fabric, reached: &Reached) -> f64 {
-    let curvature: &LocalCurvature = &reached.curvature;
-    pressure_kpa(model, fabric, curvature, &reached.threads)
 }

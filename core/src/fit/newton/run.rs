@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::anderson::Anderson;
+use super::course::NEAR_MM;
 use super::element::Order;
 use super::pressures::{Correction, Threads};
 use super::problem::{Model, Place, Problem, Room, Solved};
@@ -15,11 +16,8 @@ use crate::pressure::Targets;
 use crate::progress::{Progress, Stage};
 use crate::sparse::SparseError;
 
-/// Targets are corrected when a step moves no vertex by more than this, in mm, or promises less than this
+/// Targets are corrected when a step moves no vertex by more than [`NEAR_MM`], or promises less than this
 /// share of the energy: then most of what is left is local, and a whole thread's strain hardly changes.
-const NEAR_MM: f64 = 1.0;
-
-/// See [`NEAR_MM`].
 const NEAR_ENERGY: f64 = 0.02;
 
 /// They are corrected for the first time after a step that moves no vertex by more than this, in mm: the
@@ -163,7 +161,7 @@ impl<'a> Run<'a> {
         };
         if known {
             // The fabric is where the earlier targets have brought it.
-            let correction = run.correction(true);
+            let correction = run.correction(0.5 * NEAR_MM);
             run.take(&correction);
         }
         run
@@ -193,11 +191,18 @@ impl<'a> Run<'a> {
             self.last = step.largest;
             self.far = step.largest > FAR_MM;
             let correction = (self.model.is_some() && self.threads.corrects() && self.ripe(&step))
-                .then(|| self.correction(step.largest < NEAR_MM));
+                .then(|| self.correction(step.largest));
             let settled = correction.as_ref().map_or(!self.threads.corrects(), |c| c.settled);
             let lost = correction.as_ref().is_some_and(|c| c.lost);
-            if correction.as_ref().is_some_and(|c| c.worse) {
+            let late = self.iterations == parameters.newton_steps * 7 / 10;
+            let uneasy = late && self.threads.corrects() && !settled;
+            if uneasy {
+                // What threads want of each other may keep the fabric on its way for ever.
+                self.threads.give_up();
+            }
+            if uneasy || correction.as_ref().is_some_and(|c| c.worse) {
                 self.anderson.forget();
+                self.last = f64::INFINITY;
             }
             let rests = step.largest < parameters.newton_tolerance && settled;
             match correction {
@@ -330,7 +335,7 @@ impl<'a> Run<'a> {
         }
         self.coordinates = from.iter().zip(&motion).map(|(&p, &d)| p + d).collect();
         let targets = before[coordinates..].iter().zip(&taken[coordinates..]);
-        self.threads.ask(targets.map(|(from, step)| (from + step) / self.scale));
+        self.threads.accelerate(targets.map(|(from, step)| (from + step) / self.scale));
         largest
     }
 
@@ -391,7 +396,7 @@ impl<'a> Run<'a> {
     }
 
     /// How the targets are to be corrected here.
-    fn correction(&mut self, near: bool) -> Correction {
+    fn correction(&mut self, largest: f64) -> Correction {
         if self.stale {
             self.threads.forget_answers();
         }
@@ -401,7 +406,7 @@ impl<'a> Run<'a> {
             problem.solver.triangles.gradient(coordinates, &problem.springs, &wanted, &[])
         };
         let now = self.threads.targets(coordinates);
-        self.threads.correction(coordinates, near, |others| {
+        self.threads.correction(coordinates, largest, |others| {
             let Some(model) = model else { return Vec::new() };
             if problem.ask().is_err() {
                 return Vec::new();

@@ -157,10 +157,10 @@ fn a_place_that_becomes_flat_along_its_thread_keeps_no_target() {
     let input = case.input();
     let along: Vec<DVec2> = case.omega.iter().map(|p| p.perp()).collect();
     let mut threads = super::pressures::Threads::new(&input, &case.omega);
-    threads.correction(&case.omega, true, |_| Vec::new());
+    threads.correction(&case.omega, 0.0, |_| Vec::new());
     let asked = |threads: &super::pressures::Threads<'_>| threads.targets(&along).threads[0].asked;
     assert!(asked(&threads).is_some());
-    threads.correction(&along, true, |_| Vec::new());
+    threads.correction(&along, 0.0, |_| Vec::new());
     assert_eq!(asked(&threads), None);
 }
 
