@@ -217,3 +217,14 @@ fn more_woven_nodes_than_fit_into_memory_are_refused_with_a_spacing_that_goes() 
     );
     assert_eq!(guard_nodes(&plane, 0.9), Ok(()));
 }
+
+#[test]
+fn a_seam_goes_through_points_beside_the_surfaces_edge() {
+    let shape = tube([40.0, 40.0], 12, 8, 120.0);
+    for heights in [[0.0, 15.0, 45.0, 60.0, 120.0], [0.0, 15.0, 30.0, 60.0, 120.0]] {
+        let seam = heights.map(|z| DVec3::new(40.0, 0.0, z)).to_vec();
+        let design = Design { seams: vec![seam], ..Design::default() };
+        let worn = flatten(&shape, &design, &Parameters::default(), &Silent).unwrap();
+        assert_eq!(worn.report.seams.len(), 1);
+    }
+}

@@ -187,6 +187,10 @@ impl<'a> Threads<'a> {
 
     /// Changes the targets; how the vertices move with them, in mm, as far as that is known.
     pub fn take(&mut self, correction: &Correction) -> Vec<DVec2> {
+        if self.lost {
+            // It was made for other targets than those gone back to.
+            return Vec::new();
+        }
         let changed: Vec<f64> =
             self.asked().zip(&correction.changes).map(|(asked, change)| asked + change).collect();
         self.ask(changed.into_iter());

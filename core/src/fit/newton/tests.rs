@@ -279,6 +279,17 @@ fn sewn_edges_have_equal_lengths_and_that_costs_little() {
 }
 
 #[test]
+fn sewn_edges_have_equal_lengths_however_stiff_the_diagonals() {
+    let mut case = barrel(28, 48, false);
+    let diagonal = 500.0 * case.fabric.warp.max(case.fabric.weft);
+    case.fabric = Fabric { diagonal, ..case.fabric };
+    case.annotations.clear();
+    let [left, right] = sides(&case, &case.fit());
+    let apart = left.iter().sum::<f64>() - right.iter().sum::<f64>();
+    assert!(apart.abs() < 0.1, "{apart} mm");
+}
+
+#[test]
 fn the_marker_line_is_vertical_and_no_triangle_is_turned_over() {
     let case = barrel(28, 48, false);
     let fit = case.fit();
