@@ -26,6 +26,9 @@ use crate::progress::Progress;
 /// Subtrees of fewer vertices than this are not worth a task of their own.
 const PER_TASK: u32 = 1000;
 
+/// A factorization has some more tasks than this at most: each needs room of its own.
+const TASKS: u32 = 16;
+
 /// Rows and columns of a vertex.
 pub const AXES: usize = 2;
 
@@ -48,6 +51,8 @@ struct Front {
     /// that of its second part begins.
     room: usize,
     second_room: usize,
+    /// Whether its two parts have rooms of their own, so that they can be eliminated at the same time.
+    apart: bool,
 }
 
 impl Front {
@@ -138,12 +143,13 @@ impl Multifrontal {
                 first_columns,
                 room: 0,
                 second_room: 0,
+                apart: piece.end - piece.first > PER_TASK.max(order.len() as u32 / TASKS),
             };
             front.second_room = front.left_over();
             front.room = front.second_room;
             if let Some([a, b]) = parts.map(|parts| parts.map(|p| &fronts[p])) {
                 // At the same time, or in what the first no longer needs.
-                front.second_room += if front.many() { a.room } else { a.left_over() };
+                front.second_room += if front.apart { a.room } else { a.left_over() };
                 front.room = (front.left_over() + a.room).max(front.second_room + b.room);
             }
             columns += front.own() * front.rows();
@@ -222,7 +228,7 @@ impl Multifrontal {
         if let Some([a, b]) = parts {
             let split = self.fronts[b].first_columns - front.first_columns;
             let (first, second) = below.split_at_mut(split);
-            if front.many() {
+            if front.apart {
                 let (room, other) = room.split_at_mut(second_room);
                 let (left, right) = rayon::join(
                     || self.eliminate(a, blocks, first, room, progress),
