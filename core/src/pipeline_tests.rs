@@ -56,7 +56,7 @@ fn tube([from, to]: [f64; 2], sides: usize, rows: usize, length: f64) -> RawMesh
 
 /// A surface of revolution about z by its radius from t = 0 to 1.
 fn revolved(radius: impl Fn(f64) -> f64, sides: usize, rows: usize, length: f64) -> RawMesh {
-    let points: Vec<DVec3> = (0..=rows * sides + sides - 1)
+    let points: Vec<DVec3> = (0..(rows + 1) * sides)
         .map(|k| {
             let (sin, cos) = (std::f64::consts::TAU * (k % sides) as f64 / sides as f64).sin_cos();
             let t = (k / sides) as f64 / rows as f64;

@@ -7,7 +7,7 @@ pub const NEAR_MM: f64 = 1.0;
 const REST_MM: f64 = 0.1;
 
 /// No correction changes a target by more.
-const FIRST_REACH: f64 = 0.1;
+const MOST_REACH: f64 = 0.1;
 
 /// Of what is missed, kPa²: where less was missed before, it is gone back there.
 const GOOD_AS_BEST: f64 = 0.8;
@@ -29,7 +29,7 @@ pub struct Course {
 
 impl Default for Course {
     fn default() -> Self {
-        Self { missed: None, best: None, last: 0.0, reach: FIRST_REACH, near: false }
+        Self { missed: None, best: None, last: 0.0, reach: MOST_REACH, near: false }
     }
 }
 
@@ -49,7 +49,7 @@ impl Course {
         if worse {
             self.reach = 0.5 * self.last.min(self.reach);
         } else if self.missed.is_some() {
-            self.reach = (2.0 * self.reach).min(FIRST_REACH);
+            self.reach = (2.0 * self.reach).min(MOST_REACH);
         }
     }
 
@@ -83,7 +83,9 @@ mod tests {
         assert_eq!(course.reach, 0.03);
         assert_eq!(course.best, Some((1.0, vec![Some(0.1)])));
         assert!(course.was_better(4.0) && !course.was_better(1.2));
-        // Far from rest twice as much is no bad sign, and nothing is remembered.
+        // Far from rest somewhat more is no bad sign, and nothing is remembered.
+        course.remember(0.1, 5.0, &[Some(0.3)]);
+        assert_eq!(course.best, Some((1.0, vec![Some(0.1)])));
         course.missed = Some((1.0, true));
         assert!(!course.worse(1.4, false) && course.worse(1.4, true));
     }

@@ -51,6 +51,9 @@ const LAGS: f64 = 2.0;
 /// second-order part is rarely positive and seldom of use.
 const FAR_MM: f64 = 10.0;
 
+/// After so many tenths of the steps allowed the targets are no longer corrected: the rest is for coming to rest.
+const LATE: u64 = 7;
+
 /// A step halved this often is no step.
 const HALVINGS: usize = 12;
 
@@ -194,7 +197,7 @@ impl<'a> Run<'a> {
                 .then(|| self.correction(step.largest));
             let settled = correction.as_ref().map_or(!self.threads.corrects(), |c| c.settled);
             let lost = correction.as_ref().is_some_and(|c| c.lost);
-            let late = self.iterations == parameters.newton_steps * 7 / 10;
+            let late = self.iterations == parameters.newton_steps * LATE / 10;
             let uneasy = late && self.threads.corrects() && !settled;
             if uneasy {
                 // What threads want of each other may keep the fabric on its way for ever.
