@@ -374,9 +374,12 @@ fn laid_flat(
 ) -> Result<(Parameterization, Option<Solver>), Error> {
     match parameters.method {
         Method::Newton => {
-            let solver = Solver::new(&cut.disk, &cut.seams, parameters.equal_seams)?;
+            let (disk, seams, equal) = (&cut.disk, &cut.seams, parameters.equal_seams);
+            let mut solver = Solver::new(disk, seams, equal)?;
             go_on(progress)?;
-            Ok((initial(&cut.disk, solver.matrix(), &markers.points, progress)?, Some(solver)))
+            let omega = initial(disk, solver.matrix(), &markers.points, progress)?;
+            solver.coarsen(disk, seams, &omega.coordinates, equal)?;
+            Ok((omega, Some(solver)))
         }
         Method::Diffusion => {
             let matrix = Matrix::new(&cut.disk, &[]).map_err(ParameterizeError::from)?;

@@ -82,11 +82,16 @@ class Run:
         return float(fit["energy"] / self.report["pattern"]["area_mm2"])
 
     def down_at(self, density: float) -> int | None:
-        """Newton's first step with J_E over the area at most `density` (N/mm)."""
+        """Newton's first step with J_E over the area at most `density` (N/mm).
+
+        Of all vertices: the steps on fewer, from which it begins, are not limited and not counted.
+        """
         area = self.report["pattern"]["area_mm2"]
-        for entry in self.report["fit"]["history"]:
+        history = self.report["fit"]["history"]
+        history = [entry for entry in history if entry["nodes"] == history[-1]["nodes"]]
+        for entry in history:
             if entry["energy"] / area <= density:
-                return max(int(entry["iteration"]), 1)
+                return max(int(entry["iteration"] - history[0]["iteration"]), 1)
         return None
 
 

@@ -61,6 +61,18 @@ pub struct Fit {
     pub misfit: Misfit,
 }
 
+impl Fit {
+    /// Puts the course by which its start was found before its own.
+    fn prepend(&mut self, mut history: Vec<HistoryEntry>, iterations: u64) {
+        for entry in &mut self.history {
+            entry.iteration += iterations;
+        }
+        history.append(&mut self.history);
+        self.history = history;
+        self.iterations += iterations;
+    }
+}
+
 /// Why a fit is impossible.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum FitError {

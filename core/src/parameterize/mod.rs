@@ -15,7 +15,7 @@ pub(crate) use flip_free::first_root;
 pub use quality::{
     MapQuality, crossing_edges, flipped_triangles, map_quality, outline_crossings, signed_area,
 };
-pub(crate) use rest::rest_triangles;
+pub(crate) use rest::{RestTriangle, rest_of_lengths, rest_triangles};
 
 use glam::{DVec2, DVec3};
 

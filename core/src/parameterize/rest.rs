@@ -51,11 +51,14 @@ impl RestTriangle {
 
 /// The shapes of all triangles of a surface, mollified where it needs to be.
 pub(crate) fn rest_triangles(surface: &Surface) -> Vec<RestTriangle> {
-    let room = ROOM * surface.mean_edge_length();
-    let lengths: Vec<[f64; 3]> = surface
-        .triangle_ids()
-        .map(|t| std::array::from_fn(|k| surface.length(HalfEdgeId::of(t, k))))
-        .collect();
+    let of = |t| std::array::from_fn(|k| surface.length(HalfEdgeId::of(t, k)));
+    rest_of_lengths(surface.triangle_ids().map(of).collect())
+}
+
+/// The same of the lengths of their edges, in mm, edge `k` of a triangle from corner `k` to corner `k + 1`.
+pub(crate) fn rest_of_lengths(lengths: Vec<[f64; 3]>) -> Vec<RestTriangle> {
+    let edges = 3 * lengths.len().max(1);
+    let room = ROOM * lengths.iter().flatten().sum::<f64>() / edges as f64;
     let lacking = lengths
         .iter()
         .flat_map(|&[a, b, c]| [room - (a + b - c), room - (b + c - a), room - (c + a - b)])

@@ -19,6 +19,7 @@
 //! flattened in one piece; the pattern says where.
 
 mod anderson;
+mod coarse;
 mod course;
 mod eigen;
 mod element;
@@ -30,10 +31,14 @@ mod seam;
 mod straight;
 #[cfg(test)]
 mod tests;
+mod thinned;
 mod triangles;
 
 use std::sync::Arc;
 
+use glam::DVec2;
+
+use self::coarse::Coarse;
 use self::element::Springs;
 use self::pressures::Answers;
 use self::problem::Model;
@@ -41,6 +46,7 @@ pub use self::run::Run;
 use self::seam::Sewn;
 use self::triangles::Triangles;
 use super::{Fit, FitError, FitInput};
+use crate::parameterize::{RestTriangle, rest_triangles};
 use crate::progress::Progress;
 use crate::seams::Seam;
 use crate::sparse::Matrix;
@@ -53,6 +59,8 @@ pub struct Solver {
     matrix: Matrix,
     /// Shares of the vertices in the worn area.
     shares: Vec<f64>,
+    /// The same surface with fewer vertices, from which a first fit begins.
+    coarse: Option<Box<Coarse>>,
 }
 
 /// What a fit leaves to the next one of the same surface: its last Hessian, and how the pressures answer to
@@ -91,11 +99,36 @@ impl Solver {
     /// # Errors
     /// If memory runs out.
     pub fn new(disk: &Surface, seams: &[Seam], equal_seams: bool) -> Result<Self, FitError> {
+        Self::with_shapes(disk, &rest_triangles(disk), seams, equal_seams)
+    }
+
+    /// Prepares a cut surface with triangles of these shapes.
+    fn with_shapes(
+        disk: &Surface,
+        rest: &[RestTriangle],
+        seams: &[Seam],
+        equal_seams: bool,
+    ) -> Result<Self, FitError> {
         let sewn = Sewn::new(disk, if equal_seams { seams } else { &[] });
         let matrix = Matrix::new(disk, sewn.cliques())?;
-        let triangles = Triangles::new(disk);
+        let triangles = Triangles::new(disk, rest);
         let shares = triangles.worn_shares(disk.vertex_count());
-        Ok(Self { triangles, sewn, matrix, shares })
+        Ok(Self { triangles, sewn, matrix, shares, coarse: None })
+    }
+
+    /// Prepares the surface with fewer vertices, too, given the initial parameterization.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn coarsen(
+        &mut self,
+        disk: &Surface,
+        seams: &[Seam],
+        omega: &[DVec2],
+        equal_seams: bool,
+    ) -> Result<(), FitError> {
+        self.coarse = Coarse::new(disk, seams, omega, equal_seams)?.map(Box::new);
+        Ok(())
     }
 
     /// The surface's matrix, for what else is solved on it.
@@ -115,6 +148,15 @@ impl Solver {
         earlier: Option<Earlier<'_>>,
         progress: &'a dyn Progress,
     ) -> Result<(Fit, Run<'a>), FitError> {
-        Run::new(self, input, earlier, progress).settle()
+        let start = match (&self.coarse, earlier) {
+            (Some(coarse), None) => coarse.start(input, progress)?,
+            _ => None,
+        };
+        let earlier = earlier.or(start.as_ref().map(|fit| Earlier { fit, kept: None }));
+        let (mut fit, run) = Run::new(self, input, earlier, progress).settle()?;
+        if let Some(start) = start {
+            fit.prepend(start.history, start.iterations);
+        }
+        Ok((fit, run))
     }
 }

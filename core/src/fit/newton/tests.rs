@@ -97,6 +97,15 @@ impl Case {
         Solver::new(&self.disk, &self.seams, self.parameters.equal_seams).unwrap()
     }
 
+    /// One that begins on fewer vertices.
+    fn coarse_to_fine(&self) -> Solver {
+        let mut solver = self.solver();
+        let equal = self.parameters.equal_seams;
+        solver.coarsen(&self.disk, &self.seams, &self.omega, equal).unwrap();
+        assert!(solver.coarse.is_some(), "{} triangles", self.disk.triangle_count());
+        solver
+    }
+
     fn fit(&self) -> Fit {
         self.solver().fit(&self.input(), None, &Silent).unwrap().0
     }
@@ -382,11 +391,37 @@ fn from_an_earlier_fit_or_afresh_it_comes_to_the_same() {
 }
 
 #[test]
+fn begun_on_fewer_vertices_it_comes_to_the_same_in_fewer_steps() {
+    let mut case = barrel(42, 72, false);
+    case.parameters.newton_tolerance = 1e-3;
+    let plain = case.fit();
+    let fit = case.coarse_to_fine().fit(&case.input(), None, &Silent).unwrap().0;
+    assert_eq!(fit.stopped, Stopped::Gradient);
+    let off = gap(&case.placed(&fit), &case.placed(&plain));
+    // As above: within what two corrections may differ.
+    assert!(off < 0.3, "{off} mm");
+    assert!((fit.misfit.energy / plain.misfit.energy - 1.0).abs() < 2e-3);
+    // The history has both levels, one after the other.
+    let fine = case.disk.vertex_count();
+    let on = |nodes: usize| fit.history.iter().filter(|entry| entry.nodes == nodes).count() as u64;
+    let (few, all) = (on(fit.history[0].nodes), on(fine));
+    assert_eq!(few + all, fit.history.len() as u64);
+    assert!(fit.history[0].nodes < fine / 5 && all <= plain.iterations, "{all} of {plain:?}");
+    assert!(fit.history.windows(2).all(|pair| pair[0].iteration <= pair[1].iteration));
+    assert_eq!(fit.history.last().unwrap().iteration, fit.iterations);
+    // However few steps all vertices are allowed.
+    case.parameters.newton_steps = 1;
+    let short = case.coarse_to_fine().fit(&case.input(), None, &Silent).unwrap().0;
+    assert_eq!(short.iterations, few);
+    assert!(gap(&case.placed(&short), &case.placed(&plain)) < 1.0);
+}
+
+#[test]
 fn the_same_bits_on_any_number_of_threads() {
-    let case = barrel(28, 48, false);
+    let case = barrel(42, 72, false);
     let threads = |count: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(count).build().unwrap();
-        pool.install(|| case.fit())
+        pool.install(|| case.coarse_to_fine().fit(&case.input(), None, &Silent).unwrap().0)
     };
     let one = threads(1);
     assert_eq!(one, threads(3));
@@ -409,13 +444,14 @@ impl Progress for After {
 
 #[test]
 fn it_can_be_cancelled_at_every_step() {
-    let case = barrel(14, 24, false);
-    let whole = case.fit().iterations;
-    let solver = case.solver();
-    for questions in 0..usize::try_from(whole).unwrap() {
-        let watch = After(questions.into());
+    let (small, large) = (barrel(14, 24, false), barrel(42, 72, false));
+    for (case, solver) in [(&small, small.solver()), (&large, large.coarse_to_fine())] {
         let input = case.input();
-        assert_eq!(solver.fit(&input, None, &watch).err(), Some(FitError::Cancelled));
+        let whole = solver.fit(&input, None, &Silent).unwrap().0.iterations;
+        for questions in 0..usize::try_from(whole).unwrap() {
+            let watch = After(questions.into());
+            assert_eq!(solver.fit(&input, None, &watch).err(), Some(FitError::Cancelled));
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use super::element::{
 };
 use super::straight::{Directions, Means};
 use crate::fit::Misfit;
-use crate::parameterize::{first_root, rest_triangles};
+use crate::parameterize::{RestTriangle, first_root};
 use crate::pressure::{StrainCourse, Targets};
 use crate::sparse::Element;
 use crate::surface::Surface;
@@ -87,14 +87,13 @@ const OUTWEIGHS: f64 = 2.0;
 const FELT: f64 = 0.6;
 
 impl Triangles {
-    /// Those of a surface.
-    pub fn new(surface: &Surface) -> Self {
-        let rest = rest_triangles(surface);
+    /// Those of a surface, of these shapes.
+    pub fn new(surface: &Surface, rest: &[RestTriangle]) -> Self {
         let ids: Vec<_> = surface.triangle_ids().collect();
         let worn: Vec<Worn> = ids
             .par_iter()
             .with_min_len(PER_TASK)
-            .zip(&rest)
+            .zip(rest)
             .map(|(&t, rest)| {
                 let [a, b, c] = surface.corners(t);
                 let along = (b - a).normalize_or_zero();
