@@ -1,5 +1,7 @@
 //! Coarse to fine: a first fit begins where one of the same surface with fewer vertices has ended.
 //!
+//! And a later one goes on by what that fit, made again, has moved.
+//!
 //! Lobes turn and rows find their place on the thinned surface, where a step costs little; what is
 //! left to all of the vertices is mostly local. What a coarse fit finds is only a start: where it finds none, or
 //! one that turns triangles over, the initial parameterization is the start.
@@ -7,12 +9,12 @@
 use glam::{DMat2, DVec2, DVec3};
 
 use super::thinned::{Thinned, walk};
-use super::{Fit, FitError, FitInput, Solver};
+use super::{Below, Earlier, Fit, FitError, FitInput, Solver};
 use crate::fit::Stopped;
 use crate::geometry::SurfacePoint;
 use crate::parameterize::{flipped_triangles, rest_of_lengths};
 use crate::parameters::Parameters;
-use crate::pressure::Annotation;
+use crate::pressure::{Annotation, Targets};
 use crate::progress::{Progress, Stage};
 use crate::seams::Seam;
 use crate::surface::{Surface, TriangleId};
@@ -24,7 +26,7 @@ const LEAST_TRIANGLES: usize = 4000;
 const LONGER: f64 = 3.0;
 
 /// A start is found to within this, in mm.
-const TOLERANCE_MM: f64 = 0.02;
+const TOLERANCE_MM: f64 = 0.05;
 
 /// And in so many steps, however few are allowed to the fit of all vertices.
 const STEPS: u64 = 100;
@@ -33,6 +35,14 @@ const STEPS: u64 = 100;
 pub struct Coarse {
     thinned: Thinned,
     solver: Solver,
+}
+
+/// Where a fit of all vertices is to begin.
+pub struct Start {
+    /// As if it were an earlier fit.
+    pub fit: Fit,
+    /// The coarse fit.
+    pub below: Below,
 }
 
 /// Asks for the end of a job that says nothing.
@@ -69,15 +79,24 @@ impl Coarse {
         Ok(Some(Self { thinned, solver }))
     }
 
-    /// Where the fit of all vertices is to begin; `None` if the coarse one leads nowhere.
+    /// Where the fit of all vertices is to begin; `None` if the coarse one leads nowhere, or if the earlier fit
+    /// has none.
     ///
     /// # Errors
-    /// If memory runs out or the job is cancelled.
+    /// If the job is cancelled.
     pub fn start(
         &self,
         input: &FitInput<'_>,
+        earlier: Option<Earlier<'_>>,
         progress: &dyn Progress,
-    ) -> Result<Option<Fit>, FitError> {
+    ) -> Result<Option<Start>, FitError> {
+        let before = earlier.map(|Earlier { fit, kept }| {
+            kept.and_then(|kept| kept.coarse.as_deref()).map(|below| (fit, below))
+        });
+        if let Some(None) = before {
+            return Ok(None);
+        }
+        let before = before.flatten();
         let Thinned { disk, origin, places, .. } = &self.thinned;
         let omega: Vec<DVec2> = origin.iter().map(|&v| input.omega[v]).collect();
         let moved = |point: &SurfacePoint| {
@@ -107,16 +126,55 @@ impl Coarse {
             ..*input
         };
         let quiet = Quiet(progress);
-        let (fit, _) = self.solver.fit(&own, None, &quiet)?;
+        let below = before.map(|(_, below)| Earlier { fit: &below.fit, kept: below.kept.as_ref() });
+        let (fit, run) = match self.solver.fit(&own, below, &quiet) {
+            Ok(found) => found,
+            Err(FitError::Cancelled) => return Err(FitError::Cancelled),
+            Err(_) => return Ok(None),
+        };
         if fit.stopped != Stopped::Gradient {
             return Ok(None);
         }
-        let coordinates = refined(disk, &omega, &fit.coordinates, places, input.omega);
-        if flipped_triangles(input.disk, &coordinates).next().is_some() {
+        let spread = |values: &[DVec2]| refined(disk, &omega, values, places, input.omega);
+        let start = match before {
+            // Targets that were corrected on fewer vertices are no help: threads of contrary wishes then cycled.
+            None => Fit {
+                coordinates: spread(&fit.coordinates),
+                targets: Targets { threads: Vec::new(), ..fit.targets.clone() },
+                ..fit.clone()
+            },
+            Some((earlier, below)) => {
+                let pairs = fit.coordinates.iter().zip(&below.fit.coordinates);
+                let moved: Vec<DVec2> = pairs.map(|(to, from)| *to - *from).collect();
+                let places = earlier.coordinates.iter().zip(spread(&moved));
+                Fit {
+                    coordinates: places.map(|(from, moved)| *from + moved).collect(),
+                    targets: changed(&earlier.targets, &below.fit.targets, &fit.targets),
+                    ..earlier.clone()
+                }
+            }
+        };
+        if flipped_triangles(input.disk, &start.coordinates).next().is_some() {
             return Ok(None);
         }
-        Ok(Some(Fit { coordinates, ..fit }))
+        Ok(Some(Start { fit: start, below: Below { fit, kept: run.leave() } }))
     }
+}
+
+/// Targets with the changes of those of the same threads.
+fn changed(targets: &Targets, before: &Targets, after: &Targets) -> Targets {
+    let mut targets = targets.clone();
+    for thread in &mut targets.threads {
+        let same = |others: &Targets| {
+            let found = others.threads.iter().find(|t| t.annotations == thread.annotations);
+            found.and_then(|t| Some((t.wanted?, t.asked?)))
+        };
+        if let (Some(before), Some(after)) = (same(before), same(after)) {
+            thread.wanted = thread.wanted.map(|wanted| wanted + after.0 - before.0);
+            thread.asked = thread.asked.map(|asked| asked + after.1 - before.1);
+        }
+    }
+    targets
 }
 
 /// Values at the vertices of a plane triangulation, `omega`, at other places `at` of the plane, each in the

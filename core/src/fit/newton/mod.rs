@@ -63,13 +63,22 @@ pub struct Solver {
     coarse: Option<Box<Coarse>>,
 }
 
-/// What a fit leaves to the next one of the same surface: its last Hessian, and how the pressures answer to
-/// the targets.
+/// What a fit leaves to the next one of the same surface: its last Hessian, how the pressures answer to
+/// the targets, and the fit on fewer vertices.
 pub struct Kept {
     model: Arc<Model>,
     springs: Springs,
     upright: Vec<(usize, f64)>,
     answers: Option<Arc<Answers>>,
+    /// Of the seams' edges, in N.
+    tensions: Vec<f64>,
+    coarse: Option<Box<Below>>,
+}
+
+/// A fit of the thinned surface, and what it leaves to the next.
+pub struct Below {
+    fit: Fit,
+    kept: Option<Kept>,
 }
 
 impl std::fmt::Debug for Kept {
@@ -148,14 +157,19 @@ impl Solver {
         earlier: Option<Earlier<'_>>,
         progress: &'a dyn Progress,
     ) -> Result<(Fit, Run<'a>), FitError> {
-        let start = match (&self.coarse, earlier) {
-            (Some(coarse), None) => coarse.start(input, progress)?,
-            _ => None,
+        let start = match &self.coarse {
+            Some(coarse) => coarse.start(input, earlier, progress)?,
+            None => None,
         };
-        let earlier = earlier.or(start.as_ref().map(|fit| Earlier { fit, kept: None }));
-        let (mut fit, run) = Run::new(self, input, earlier, progress).settle()?;
+        let begun = start.as_ref().map(|start| Earlier {
+            fit: &start.fit,
+            kept: earlier.and_then(|earlier| earlier.kept),
+        });
+        let (mut fit, mut run) = Run::new(self, input, begun.or(earlier), progress).settle()?;
         if let Some(start) = start {
-            fit.prepend(start.history, start.iterations);
+            let Fit { history, iterations, .. } = &start.below.fit;
+            fit.prepend(history.clone(), *iterations);
+            run.below = Some(Box::new(start.below));
         }
         Ok((fit, run))
     }

@@ -111,11 +111,12 @@ impl<'a> Problem<'a> {
             + sewn.energy(at.coordinates, self.input.fabric)
     }
 
-    /// Minus the gradient of it, in N.
-    pub fn downhill(&self, at: &Place<'_>, courses: &Courses) -> Vec<f64> {
+    /// Minus the gradient of it, in N, where the seams pull along `courses`, and by what is `turned`, too.
+    pub fn downhill(&self, at: &Place<'_>, courses: &Courses, turned: &[f64]) -> Vec<f64> {
         let Solver { triangles, sewn, .. } = self.solver;
         let mut force = triangles.gradient(at.coordinates, &self.springs, at.wanted, at.turning);
         sewn.add_forces(&mut force, at.coordinates, courses, self.input.fabric);
+        force.iter_mut().zip(turned).for_each(|(force, turned)| *force += turned);
         for f in &mut force {
             *f = -*f;
         }
@@ -173,7 +174,7 @@ impl<'a> Problem<'a> {
         room: &Room,
     ) -> Result<Option<Solved>, FitError> {
         let matrix = &self.solver.matrix;
-        let downhill = self.downhill(at, &courses);
+        let downhill = self.downhill(at, &courses, &[]);
         self.ask()?;
         let Some(factor) = matrix.factorize(&room.values, self.progress)? else {
             self.ask()?;

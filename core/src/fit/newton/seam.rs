@@ -4,7 +4,9 @@
 //! worn surface, the energy gets ½ κ (l − r)² / w. κ is so large that what remains of a mismatch of
 //! some per cent is some hundredths of a per cent. The force acts along the seam's course smoothed over
 //! [`COURSE_MM`], not along the single edges: otherwise the shorter side would lengthen by a zigzag as
-//! fine as its edges.
+//! fine as its edges. While a Hessian is kept its courses are, too: a force across them, where a mismatch is still
+//! on its way, would move the fabric as if nothing held it. Where an earlier fit's Hessian is kept, what turns
+//! with the fabric is the tension that a small step has left.
 
 use glam::DVec2;
 
@@ -108,6 +110,46 @@ impl Sewn {
         }
     }
 
+    /// The tensions of the edges after a motion along courses, in N.
+    pub fn tensions(
+        &self,
+        coordinates: &[DVec2],
+        courses: &Courses,
+        motion: &[DVec2],
+        fabric: &Fabric,
+    ) -> Vec<f64> {
+        let edges = self.edges.iter().zip(self.stiffnesses(fabric));
+        edges
+            .zip(courses.0.iter().zip(&self.cliques))
+            .map(|((edge, stiffness), (row, clique))| {
+                let moved = clique.iter().zip(row.chunks_exact(2));
+                let closed: f64 =
+                    moved.map(|(&v, by)| by[0] * motion[v].x + by[1] * motion[v].y).sum();
+                stiffness * (Self::mismatch(edge, coordinates) + closed)
+            })
+            .collect()
+    }
+
+    /// What tensions pull along courses beyond what they pull along others, by every coordinate, in N.
+    pub fn turned(
+        &self,
+        courses: &Courses,
+        others: &Courses,
+        tensions: &[f64],
+        vertices: usize,
+    ) -> Vec<f64> {
+        let mut forces = vec![0.0; 2 * vertices];
+        for (((row, other), clique), tension) in
+            courses.0.iter().zip(&others.0).zip(&self.cliques).zip(tensions)
+        {
+            for (k, v) in clique.iter().enumerate() {
+                forces[2 * v] += tension * (row[2 * k] - other[2 * k]);
+                forces[2 * v + 1] += tension * (row[2 * k + 1] - other[2 * k + 1]);
+            }
+        }
+        forces
+    }
+
     /// The courses at these pattern coordinates.
     pub fn courses(&self, coordinates: &[DVec2]) -> Courses {
         let left = self.directions(coordinates, |e| e.left);
@@ -162,6 +204,12 @@ impl Sewn {
 }
 
 impl Courses {
+    /// By how much the directions of an edge differ at most.
+    pub fn differ(&self, other: &Self) -> f64 {
+        let rows = self.0.iter().flatten().zip(other.0.iter().flatten());
+        rows.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+    }
+
     /// One row for each clique.
     pub fn rows(&self) -> &[Vec<f64>] {
         &self.0
