@@ -263,9 +263,9 @@ parameters! {
         "The step is the gradient of the energy scaled by its Hessian: what is still missing to \
          the minimum. A pattern is cut to some tenths of a millimetre.";
     newton_steps: u64 = 100, "", Kind::Integer(1..=10_000),
-        "Most Newton steps.",
-        "The sample limbs need eight to twenty. A run that hits it says `not converged` in the table, the report \
-         and the warnings.";
+        "Most Newton steps of all vertices.",
+        "The sample limbs need three to thirty; those on fewer vertices with which a fit begins are not counted. \
+         A run that hits it says `not converged` in the table, the report and the warnings.";
     equal_seams: bool = true, "", Kind::Switch,
         "Hold sewn edges at equal lengths in the pattern.",
         "Without it the two sides of a seam come out up to a fifth apart, and the pattern cannot \

@@ -218,7 +218,7 @@ struct PieceFile {
     #[serde(skip_serializing_if = "is_zero")]
     #[schemars(range(min = 0.0, max = MOST_ALLOWANCE))]
     edge_allowance_mm: f64,
-    /// Distance of the notches along a seam, in mm, about. 0 for none.
+    /// Distance of the notches along a seam, in mm, about: 10 or more, or 0 for none.
     #[serde(skip_serializing_if = "is_default_spacing")]
     #[schemars(range(min = 0.0, max = 1000.0))]
     notch_spacing_mm: f64,

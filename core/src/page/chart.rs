@@ -34,7 +34,12 @@ impl<'a> Axis<'a> {
         let step = round_up((high - low) / 6.0);
         let first = (low / step - 1e-9).ceil() as i64;
         let last = (high / step + 1e-9).floor() as i64;
-        let decimals = usize::from(step < 1.0) + usize::from(step < 0.1);
+        // As many as the step has: 2.5 is not 2.
+        let whole = |decimals: &i32| {
+            let shifted = step * 10f64.powi(*decimals);
+            (shifted - shifted.round()).abs() < 1e-6
+        };
+        let decimals = (0..6).find(whole).unwrap_or(6) as usize;
         let ticks = (first..=last)
             .map(|k| k as f64 * step)
             .map(|value| (value, shown(value, decimals)))
@@ -200,13 +205,17 @@ pub(super) fn strain_function(input: &PageInput<'_>) -> Option<Document> {
 
 /// E_SSD, Eq. (14), over the steps of the fit; `None` where there is no course to show.
 pub(super) fn energy(input: &PageInput<'_>) -> Option<Document> {
-    let history: Vec<(f64, f64, f64)> = input
-        .report
-        .fit
+    let fit = &input.report.fit;
+    // A level has its own spacing of threads, or its own vertices.
+    let by_vertices = fit.method == "newton";
+    let history: Vec<(f64, f64, f64)> = fit
         .history
         .iter()
         .filter(|entry| entry.e_ssd > 0.0)
-        .map(|entry| (entry.iteration as f64, entry.e_ssd, entry.spacing_mm))
+        .map(|entry| {
+            let level = if by_vertices { entry.nodes as f64 } else { entry.spacing_mm };
+            (entry.iteration as f64, entry.e_ssd, level)
+        })
         .collect();
     let last = history.last()?;
     let field = Field {
@@ -224,7 +233,8 @@ pub(super) fn energy(input: &PageInput<'_>) -> Option<Document> {
             "#00599c",
             2.6,
         ));
-        let words = format!("{} mm", shown(level[0].2, usize::from(level[0].2.fract() != 0.0)));
+        let unit = if by_vertices { "vertices" } else { "mm" };
+        let words = format!("{} {unit}", shown(level[0].2, usize::from(level[0].2.fract() != 0.0)));
         all = all.add(rimmed(head + DVec2::new(5.0, 10.0), Anchor::Start, LETTER, &words));
     }
     Some(all)
@@ -241,6 +251,9 @@ mod tests {
         assert_eq!(ticks, [0.0, 50.0, 100.0, 150.0, 200.0, 250.0]);
         let axis = Axis::linear(0.0, 0.0, "");
         assert!(axis.ticks.len() > 2 && axis.high > axis.low);
+        let axis = Axis::linear(0.0, 13.0, "");
+        let words: Vec<&str> = axis.ticks.iter().map(|t| t.1.as_str()).collect();
+        assert_eq!(words, ["0.0", "2.5", "5.0", "7.5", "10.0", "12.5"]);
     }
 
     #[test]

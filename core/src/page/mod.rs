@@ -312,7 +312,7 @@ fn curves(input: &PageInput<'_>) -> Tag {
         chart::energy(input),
         format!(
             "E_SSD (Eq. 14): the sum of squared strain differences, each level of the fit with \
-             its own spacing and number of springs. At the end {} over {} springs, {} of strain \
+             its own number of springs. At the end {} over {} springs, {} of strain \
              for each; energy {} {}; {} steps, {}.",
             shown(fit.e_ssd, 2),
             fit.springs,

@@ -9,6 +9,7 @@ use super::course::NEAR_MM;
 use super::element::Order;
 use super::pressures::{Correction, Threads};
 use super::problem::{Model, Place, Problem, Room, Solved};
+use super::seam::Pull;
 use super::triangles::{Turning, Wanted};
 use super::{Below, Earlier, Kept, Solver};
 use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
@@ -57,9 +58,6 @@ const LATE: u64 = 7;
 /// After a step this small, in mm, the courses of the seams are looked at that an earlier fit's Hessian has.
 const TURN_MM: f64 = 0.1;
 
-/// They have turned since by more than this, of their length.
-const TURNED: f64 = 0.03;
-
 /// A step halved this often is no step.
 const HALVINGS: usize = 12;
 
@@ -85,14 +83,7 @@ pub struct Run<'a> {
     far: bool,
     /// By what a target strain counts beside a coordinate in mm: what it moves the vertices.
     scale: f64,
-    /// Of the seams' edges after the last step, in N.
-    tensions: Vec<f64>,
-    /// What they pull along the seams' courses beyond what they pull along those of the Hessian at hand, in N; none
-    /// before they have turned.
-    turned: Vec<f64>,
-    /// How often the seams may still be looked at: once with an earlier fit's Hessian, from so far away that a barrel
-    /// ended 0.4 mm off. Followed again and again, an ankle's seam folded.
-    turns: usize,
+    pull: Pull,
     /// The fit of fewer vertices from which it began, for the next.
     pub below: Option<Box<Below>>,
 }
@@ -150,13 +141,13 @@ impl<'a> Run<'a> {
         let mut threads = Threads::new(input, &coordinates);
         let problem = Problem::new(solver, input, progress);
         let mut model = None;
-        let mut tensions = Vec::new();
+        let mut pull = Pull::default();
         let mut known = false;
         if let Some(Earlier { fit, kept }) = earlier {
             let kept = kept.filter(|kept| problem.like(&kept.springs, &kept.upright));
             known = threads.resume(&fit.targets, kept.and_then(|kept| kept.answers.as_ref()));
             model = kept.map(|kept| Arc::clone(&kept.model));
-            tensions = kept.map_or_else(Vec::new, |kept| kept.tensions.clone());
+            pull = kept.map_or_else(Pull::default, |kept| Pull::resumed(kept.tensions.clone()));
         }
         let resumed = model.is_some();
         let [low, high] = coordinates
@@ -179,9 +170,7 @@ impl<'a> Run<'a> {
             stale: false,
             far: earlier.is_none(),
             scale,
-            tensions,
-            turned: Vec::new(),
-            turns: usize::from(resumed),
+            pull,
             below: None,
         };
         run.follow_seams();
@@ -212,13 +201,9 @@ impl<'a> Run<'a> {
             );
             let step = self.step(&wanted, &turning)?;
             if let Some(model) = &self.model {
-                let Problem { solver, input, .. } = &self.problem;
-                self.tensions = solver.sewn.tensions(
-                    &self.coordinates,
-                    &model.courses,
-                    &step.motion,
-                    input.fabric,
-                );
+                let (Problem { solver, input, .. }, motion) = (&self.problem, &step.motion);
+                let at = &self.coordinates;
+                self.pull.left(solver.sewn.tensions(at, &model.courses, motion, input.fabric));
             }
             let before = self.state();
             let advance = self.advance(&step, &wanted, &turning);
@@ -314,7 +299,7 @@ impl<'a> Run<'a> {
         }
         let at = Place { coordinates: &self.coordinates, wanted, turning };
         if let Some(model) = self.model.take() {
-            let downhill = self.problem.downhill(&at, &model.courses, &self.turned);
+            let downhill = self.problem.downhill(&at, &model.courses, self.pull.turned());
             let motion = self.problem.answers(&model, &[&downhill]).swap_remove(0);
             let step = Step::new(motion, &downhill);
             let shrinks = if self.last < LAGGING_MM { LAGS } else { SHRINKS };
@@ -327,7 +312,7 @@ impl<'a> Run<'a> {
         }
         self.kept = false;
         self.stale = false;
-        (self.turned, self.turns) = (Vec::new(), 0);
+        self.pull = Pull::default();
         let orders: &[Order] =
             if self.far { &[Order::First] } else { &[Order::Second, Order::First] };
         for &order in orders {
@@ -343,20 +328,12 @@ impl<'a> Run<'a> {
         Err(FitError::System(SparseError::NotPositiveDefinite(0)))
     }
 
-    /// Lets the seams pull along their courses as they have turned with the fabric since the Hessian was factorized;
-    /// whether that is new.
+    /// Lets the seams turn with the fabric; whether they have.
     fn follow_seams(&mut self) -> bool {
-        let Some(model) =
-            self.model.as_ref().filter(|_| self.turns > 0 && !self.tensions.is_empty())
-        else {
-            return false;
-        };
+        let Some(model) = &self.model else { return false };
         let sewn = &self.problem.solver.sewn;
-        let now = sewn.courses(&self.coordinates);
-        let turned = now.differ(&model.courses) > TURNED;
+        let turned = self.pull.follow(sewn, &self.coordinates, &model.courses);
         if turned {
-            self.turned = sewn.turned(&now, &model.courses, &self.tensions, self.coordinates.len());
-            self.turns -= 1;
             self.anderson.forget();
         }
         turned
@@ -523,13 +500,13 @@ impl<'a> Run<'a> {
 
     /// What is left to the next fit.
     pub fn leave(self) -> Option<Kept> {
-        let Self { model, problem, threads, tensions, below, .. } = self;
+        let Self { model, problem, threads, pull, below, .. } = self;
         model.map(|model| Kept {
             model,
             springs: problem.springs,
             upright: problem.upright().to_vec(),
             answers: threads.into_answers(),
-            tensions,
+            tensions: pull.into_tensions(),
             coarse: below,
         })
     }

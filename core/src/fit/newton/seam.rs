@@ -21,6 +21,9 @@ const STIFFNESS_MM: f64 = 25_000.0;
 /// Length over which a seam's direction is averaged, in mm.
 const COURSE_MM: f64 = 10.0;
 
+/// Courses have turned when a direction differs by more than this.
+const TURNED: f64 = 0.03;
+
 /// An edge of a seam and the one sewn to it.
 #[derive(Debug, Clone, Copy)]
 pub struct SewnEdge {
@@ -131,7 +134,7 @@ impl Sewn {
     }
 
     /// What tensions pull along courses beyond what they pull along others, by every coordinate, in N.
-    pub fn turned(
+    fn turned(
         &self,
         courses: &Courses,
         others: &Courses,
@@ -203,9 +206,59 @@ impl Sewn {
     }
 }
 
+/// What the seams pull while a Hessian is kept.
+#[derive(Default)]
+pub struct Pull {
+    /// Of every edge after the last step, in N.
+    tensions: Vec<f64>,
+    /// What they pull along the courses as these have turned, beyond what they pull along those of the Hessian, in N;
+    /// none before.
+    turned: Vec<f64>,
+    /// How often the courses may still be looked at.
+    turns: usize,
+}
+
+impl Pull {
+    /// That of an earlier fit, whose Hessian is kept. Its seams are followed once: they come from so far away that a
+    /// barrel ended 0.4 mm off. Followed again and again, an ankle's seam folded.
+    pub fn resumed(tensions: Vec<f64>) -> Self {
+        Self { tensions, turned: Vec::new(), turns: 1 }
+    }
+
+    /// The tensions, for the next fit.
+    pub fn into_tensions(self) -> Vec<f64> {
+        self.tensions
+    }
+
+    /// What is pulled beyond the Hessian's courses, by every coordinate, in N; none if nothing is.
+    pub fn turned(&self) -> &[f64] {
+        &self.turned
+    }
+
+    /// Lets the seams pull along their courses as they have turned with the fabric since the Hessian's; whether that
+    /// is new.
+    pub fn follow(&mut self, sewn: &Sewn, coordinates: &[DVec2], courses: &Courses) -> bool {
+        if self.turns == 0 || self.tensions.is_empty() {
+            return false;
+        }
+        let now = sewn.courses(coordinates);
+        let turned = now.differ(courses) > TURNED;
+        if turned {
+            self.turned = sewn.turned(&now, courses, &self.tensions, coordinates.len());
+            self.turns -= 1;
+        }
+        turned
+    }
+
+    /// A step is made: these are the tensions that it leaves.
+    pub fn left(&mut self, tensions: Vec<f64>) {
+        self.tensions = tensions;
+    }
+}
+
 impl Courses {
     /// By how much the directions of an edge differ at most.
-    pub fn differ(&self, other: &Self) -> f64 {
+    fn differ(&self, other: &Self) -> f64 {
         let rows = self.0.iter().flatten().zip(other.0.iter().flatten());
         rows.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
     }
