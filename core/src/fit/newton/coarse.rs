@@ -1,6 +1,5 @@
-//! Coarse to fine: a first fit begins where one of the same surface with fewer vertices has ended.
-//!
-//! And a later one goes on by what that fit, made again, has moved.
+//! Coarse to fine: a first fit begins where one of the same surface with fewer vertices has ended, and a later one
+//! goes on by what that fit, made again, has moved.
 //!
 //! Lobes turn and rows find their place on the thinned surface, where a step costs little; what is
 //! left to all of the vertices is mostly local. What a coarse fit finds is only a start: where it finds none, or
@@ -90,13 +89,15 @@ impl Coarse {
         earlier: Option<Earlier<'_>>,
         progress: &dyn Progress,
     ) -> Result<Option<Start>, FitError> {
-        let before = earlier.map(|Earlier { fit, kept }| {
-            kept.and_then(|kept| kept.coarse.as_deref()).map(|below| (fit, below))
-        });
-        if let Some(None) = before {
-            return Ok(None);
-        }
-        let before = before.flatten();
+        let before = match earlier {
+            None => None,
+            Some(Earlier { fit, kept }) => {
+                let Some(below) = kept.and_then(|kept| kept.coarse.as_deref()) else {
+                    return Ok(None);
+                };
+                Some((fit, below))
+            }
+        };
         let Thinned { disk, origin, places, .. } = &self.thinned;
         let omega: Vec<DVec2> = origin.iter().map(|&v| input.omega[v]).collect();
         let moved = |point: &SurfacePoint| {

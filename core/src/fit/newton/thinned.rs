@@ -43,7 +43,7 @@ impl Thinned {
             }
             chords.extend((0..kept.len()).map(|k| [kept[k], kept[(k + 1) % kept.len()]]));
         }
-        let vertices = spread(disk, omega, &taken, length / SPREAD);
+        let vertices = spread(disk, omega, &taken, length / SPREAD)?;
         let triangles = triangulated(&vertices, &chords, omega)?;
 
         let mut became = vec![usize::MAX; disk.vertex_count()];
@@ -147,11 +147,17 @@ fn boundary_vertices(disk: &Surface, seams: &[Seam], length: f64) -> Vec<bool> {
     taken
 }
 
-/// The taken vertices and as many others as keep `apart` in the plane from each other, in ascending order.
-fn spread(disk: &Surface, omega: &[DVec2], taken: &[bool], apart: f64) -> Vec<usize> {
+/// The taken vertices and as many others as keep `apart` in the plane from each other, in ascending order; `None` in
+/// a plane far emptier than a limb's.
+fn spread(disk: &Surface, omega: &[DVec2], taken: &[bool], apart: f64) -> Option<Vec<usize>> {
+    /// Cells of the grid for every vertex: a map that draws some places a hundred times too large has more.
+    const MOST_CELLS: usize = 100;
     let low = omega.iter().copied().reduce(DVec2::min).unwrap_or_default();
     let high = omega.iter().copied().reduce(DVec2::max).unwrap_or_default();
-    let cells = ((high - low) / apart).floor().as_usizevec2() + 1;
+    let cells = ((high - low) / apart).floor().as_usizevec2().saturating_add(glam::USizeVec2::ONE);
+    if cells.x.saturating_mul(cells.y) > MOST_CELLS * omega.len() {
+        return None;
+    }
     let cell = |p: DVec2| ((p - low) / apart).floor().as_usizevec2();
     // What keeps others away, and how far.
     let mut grid: Vec<Vec<(DVec2, f64)>> = vec![Vec::new(); cells.x * cells.y];
@@ -182,7 +188,7 @@ fn spread(disk: &Surface, omega: &[DVec2], taken: &[bool], apart: f64) -> Vec<us
         }
     }
     vertices.sort_unstable();
-    vertices
+    Some(vertices)
 }
 
 /// The triangles of a constrained Delaunay triangulation on the left of the chords; `None` if chords cross.
@@ -403,6 +409,13 @@ mod tests {
         for (l, r) in seam.left.iter().zip(&seam.right) {
             omega[r.index()] = omega[l.index()];
         }
+        assert!(Thinned::new(&disk, &[seam], &omega, 3.0).is_none());
+    }
+
+    #[test]
+    fn a_plane_drawn_without_measure_asks_for_no_memory_without_bound() {
+        let (disk, seam, mut omega) = tube(48, 24);
+        omega[0] = DVec2::splat(-1e9);
         assert!(Thinned::new(&disk, &[seam], &omega, 3.0).is_none());
     }
 
