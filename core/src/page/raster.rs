@@ -62,25 +62,28 @@ pub(super) struct Raster {
     pub(super) width: usize,
     /// Height in pixels.
     pub(super) height: usize,
-    triangle: Vec<u32>,
-    outside: Vec<bool>,
-    weights: Vec<[f32; 2]>,
-    depth: Vec<f32>,
+    pixels: Vec<Pixel>,
 }
+
+/// What is nearest in a pixel.
+#[derive(Debug, Clone, Copy)]
+struct Pixel {
+    triangle: u32,
+    /// Barycentric coordinates of the first two corners.
+    weights: [f32; 2],
+    depth: f32,
+    outside: bool,
+}
+
+/// A pixel in which there is nothing yet.
+const EMPTY: Pixel =
+    Pixel { triangle: NOTHING, weights: [0.0; 2], depth: f32::NEG_INFINITY, outside: false };
 
 impl Raster {
     /// What a camera sees of a surface whose vertices are at `points`.
     pub(super) fn new(surface: &Surface, points: &[DVec3], camera: &Camera) -> Self {
         let [width, height] = camera.size;
-        let pixels = width * height;
-        let mut raster = Self {
-            width,
-            height,
-            triangle: vec![NOTHING; pixels],
-            outside: vec![false; pixels],
-            weights: vec![[0.0; 2]; pixels],
-            depth: vec![f32::NEG_INFINITY; pixels],
-        };
+        let mut raster = Self { width, height, pixels: vec![EMPTY; width * height] };
         let places: Vec<DVec2> = points.iter().map(|&p| camera.pixel(p)).collect();
         let depths: Vec<f64> = points.iter().map(|&p| camera.depth(p)).collect();
         for t in surface.triangle_ids() {
@@ -97,29 +100,33 @@ impl Raster {
         }
         let (low, high) = (a.min(b).min(c), a.max(b).max(c));
         let range = |low: f64, high: f64, size: usize| {
-            // Pixels whose middle may lie inside.
-            let first = (low - 0.5).ceil().max(0.0) as usize;
-            let last = (high + 0.5).floor().clamp(0.0, size as f64) as usize;
-            first..last
+            // Pixels whose middle may lie inside; a cast rounds down, and to zero what is below it.
+            let before = (low - 0.5) as usize;
+            let first = before + usize::from((before as f64) < low - 0.5);
+            first..((high + 0.5) as usize).min(size)
         };
-        let (sides, sign) = ([c - b, a - c, b - a], area.signum());
+        let sides = [c - b, a - c, b - a].map(|side| area.signum() * side);
+        let share = 1.0 / area.abs();
+        let columns = range(low.x, high.x, self.width);
         for y in range(low.y, high.y, self.height) {
-            for x in range(low.x, high.x, self.width) {
+            for x in columns.clone() {
                 let p = DVec2::new(x as f64 + 0.5, y as f64 + 0.5);
                 let parts =
                     [sides[0].perp_dot(p - b), sides[1].perp_dot(p - c), sides[2].perp_dot(p - a)];
-                if parts.iter().any(|&part| sign * part < 0.0) {
+                if parts.iter().any(|&part| part < 0.0) {
                     continue;
                 }
-                let weights = parts.map(|part| part / area);
+                let weights = parts.map(|part| share * part);
                 let depth = (0..3).map(|k| weights[k] * depths[k]).sum::<f64>() as f32;
-                let pixel = y * self.width + x;
-                if depth > self.depth[pixel] {
-                    self.triangle[pixel] = t.index() as u32;
-                    // Pixels count downward, which mirrors the sense of turning.
-                    self.outside[pixel] = area < 0.0;
-                    self.weights[pixel] = [weights[0] as f32, weights[1] as f32];
-                    self.depth[pixel] = depth;
+                let pixel = &mut self.pixels[y * self.width + x];
+                if depth > pixel.depth {
+                    *pixel = Pixel {
+                        triangle: t.index() as u32,
+                        weights: [weights[0] as f32, weights[1] as f32],
+                        depth,
+                        // Pixels count downward, which mirrors the sense of turning.
+                        outside: area < 0.0,
+                    };
                 }
             }
         }
@@ -127,18 +134,19 @@ impl Raster {
 
     /// How far what is seen in a pixel is towards the viewer, in mm.
     pub(super) fn depth(&self, pixel: usize) -> f64 {
-        f64::from(self.depth[pixel])
+        f64::from(self.pixels[pixel].depth)
     }
 
     /// What is seen in a pixel.
     pub(super) fn seen(&self, pixel: usize) -> Option<Seen> {
-        (self.triangle[pixel] != NOTHING).then(|| {
-            let [a, b] = self.weights[pixel].map(f64::from);
+        let Pixel { triangle, weights, depth, outside } = self.pixels[pixel];
+        (triangle != NOTHING).then(|| {
+            let [a, b] = weights.map(f64::from);
             Seen {
-                triangle: TriangleId::new(self.triangle[pixel] as usize),
+                triangle: TriangleId::new(triangle as usize),
                 weights: [a, b, 1.0 - a - b],
-                depth: f64::from(self.depth[pixel]),
-                outside: self.outside[pixel],
+                depth: f64::from(depth),
+                outside,
             }
         })
     }
@@ -153,7 +161,7 @@ impl Raster {
         for (x, y) in about {
             let (Ok(x), Ok(y)) = (usize::try_from(x), usize::try_from(y)) else { continue };
             if x < self.width && y < self.height {
-                let seen = f64::from(self.depth[y * self.width + x]);
+                let seen = self.depth(y * self.width + x);
                 if seen.is_finite() {
                     nearest = nearest.min(seen);
                 }
