@@ -5,6 +5,7 @@ use glam::DVec3;
 use super::*;
 use crate::design::{Fabric, Painted, PressureModel, RegionPlane, WantedPressure, condense};
 use crate::progress::Silent;
+use crate::report::PressureReport;
 use crate::samples::sample;
 
 fn gap(a: &Flattening, b: &Flattening) -> f64 {
@@ -87,6 +88,24 @@ fn a_ring_painted_right_round_a_tube_is_reached_up_to_the_seam() {
         let got = row.got_kpa.unwrap();
         assert!((got / 2.0 - 1.0).abs() < 0.02, "{got} kPa");
     }
+}
+
+/// Threads of a cone run up and down in the ring, and want more than one thing: not every point can be met. More
+/// threads than are solved for had been corrected each by itself, and 42 of 130 points were within 2 %.
+#[test]
+fn a_wide_ring_with_many_threads_is_corrected_with_their_answers() {
+    let cone = tube([40.0, 55.0], 96, 42, 160.0);
+    let painted = |z: f64| if (z - 80.0).abs() < 60.0 { 2.0 + 0.01 * (z - 80.0) } else { 0.0 };
+    let kpa: Vec<f64> = cone.points.iter().map(|p| painted(p.z)).collect();
+    let Painted { pressures, .. } = condense(&cone.points, &cone.polygons, &kpa);
+    let design = Design { pressures, ..Design::default() };
+    let worn = flatten(&cone, &design, &Parameters::default(), &Silent).unwrap();
+    assert!(worn.report.fit.converged && worn.report.strain_function.data.len() > 12);
+    let off = |row: &PressureReport| (row.got_kpa.unwrap() / row.asked_kpa - 1.0).abs();
+    let rows = &worn.report.pressures;
+    let met = rows.iter().filter(|row| off(row) < 0.02).count();
+    let worst = rows.iter().map(off).fold(0.0, f64::max);
+    assert!(10 * met > 6 * rows.len() && worst < 0.05, "{met} of {}, {worst}", rows.len());
 }
 
 /// Two wishes on the back of a tube of 100 mm: heights in mm and kPa; warp, weft and diagonal in N/mm.

@@ -4,8 +4,8 @@
 //! minimum of J_E the thread takes, over its whole length, a little more or less than its target, since
 //! a doubly curved limb shares the misfit out. The paper stops there. Here the targets are
 //! corrected: the pressures P that the pattern gives are computed from the whole threads' strains, how
-//! they answer to each target is read off the fit's own Hessian (one solve a thread), and the targets
-//! that bring P nearest to what was asked (least squares, within [0, max_strain]) are taken:
+//! they answer to each target is read off the fit's own Hessian (one solve a thread, or a bundle of
+//! neighbours where they are many), and the targets that bring P nearest to what was asked (least squares, within [0, max_strain]) are taken:
 //!
 //! min ½ Σ_j (P_j + Σ_i S_ji Δ_i − P⁰_j)² + ½ α Σ_i (p_i (τ_i + Δ_i − w_i))²
 //!
@@ -14,13 +14,16 @@
 //! for nothing; α is so small that a thread which answers by half is off by 0.4 %.
 
 mod answers;
+mod bundles;
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::DVec2;
 
 pub use self::answers::Answers;
 use self::answers::PROBE;
+use self::bundles::bundled;
 use super::course::{Course, NEAR_MM};
 use crate::fit::FitInput;
 use crate::pressure::{
@@ -40,7 +43,7 @@ const SETTLED_STRAIN: f64 = 2e-4;
 
 /// How the targets are to change.
 pub struct Correction {
-    /// By thread.
+    /// By bundle of threads.
     changes: Vec<f64>,
     /// Whether the pressures are as near to what was asked as they will come.
     pub settled: bool,
@@ -68,6 +71,8 @@ pub struct Threads<'a> {
     reader: Reader<'a>,
     /// The annotations of each thread, from the lowest thread.
     groups: Vec<Vec<usize>>,
+    /// The threads whose targets are corrected as one.
+    bundles: Vec<Range<usize>>,
     /// Eq. (3) for each.
     wanted: Vec<Option<f64>>,
     /// The corrected target of each.
@@ -90,6 +95,7 @@ impl<'a> Threads<'a> {
             input,
             reader: Reader::new(input.disk, input.annotations, input.parameters.curvature_radius),
             groups: Vec::new(),
+            bundles: Vec::new(),
             wanted: Vec::new(),
             asked: Vec::new(),
             wishes: Vec::new(),
@@ -153,8 +159,10 @@ impl<'a> Threads<'a> {
             // It was made for other targets than those gone back to.
             return Vec::new();
         }
-        let changed: Vec<f64> =
-            self.asked().zip(&correction.changes).map(|(asked, change)| asked + change).collect();
+        let mut changed: Vec<f64> = self.asked().collect();
+        for (bundle, change) in self.bundles.iter().zip(&correction.changes) {
+            changed[bundle.clone()].iter_mut().for_each(|asked| *asked += change);
+        }
         self.ask(changed.into_iter());
         let motions = self.answers.iter().flat_map(|answers| &answers.motions);
         let mut whole = Vec::new();
@@ -201,11 +209,13 @@ impl<'a> Threads<'a> {
                 reached[a].place.y.total_cmp(&reached[b].place.y).then(a.cmp(&b))
             });
             self.groups.clear();
+            let mut heights = Vec::new();
             let mut first = f64::NEG_INFINITY;
             for k in order {
                 let y = reached[k].place.y;
                 if y - first > 0.5 * parameters.spacing {
                     self.groups.push(Vec::new());
+                    heights.push(y);
                     first = y;
                 }
                 if let Some(group) = self.groups.last_mut() {
@@ -215,6 +225,7 @@ impl<'a> Threads<'a> {
             for group in &mut self.groups {
                 group.sort_unstable();
             }
+            self.bundles = bundled(&heights);
         }
         self.wishes = annotations
             .iter()
@@ -347,7 +358,7 @@ impl<'a> Threads<'a> {
         let misses = missed > promised;
         let near = largest < NEAR_MM;
         let worse = misses && self.course.worse(missed, near);
-        let changes = vec![0.0; self.groups.len()];
+        let changes = vec![0.0; self.bundles.len()];
         let mut correction =
             Correction { changes, settled: true, worse, lost: self.lost && misses };
         if self.lost {
@@ -368,7 +379,7 @@ impl<'a> Threads<'a> {
         }
         loop {
             if self.answers.is_none() {
-                self.answers = Some(Arc::new(self.answers(coordinates, &here, &got, &answers)));
+                self.answers = Some(Arc::new(self.answers(coordinates, &got, &answers)));
                 self.course.near = near;
             }
             correction.changes = self.changes(&here, &got, &counts);

@@ -1,5 +1,7 @@
 //! How pressures and pattern answer to the target strains, and the targets that follow from it.
 
+use std::ops::Range;
+
 use glam::DVec2;
 
 use super::Threads;
@@ -12,9 +14,6 @@ use crate::pressure::{Reached, Stretch, Targets, pressure_kpa};
 /// α.
 const EFFORT: f64 = 1e-3;
 
-/// More threads than this (a painted field) are corrected each by itself, without the others' answer.
-const MOST_SOLVED: usize = 24;
-
 /// Pressures whose answers are solved for together.
 const AT_ONCE: usize = 4;
 
@@ -26,13 +25,14 @@ pub const PROBE: f64 = 1e-4;
 pub struct Answers {
     /// The annotations of each thread, and where they are.
     groups: Vec<Vec<usize>>,
+    bundles: Vec<Range<usize>>,
     points: Vec<SurfacePoint>,
     /// What makes pressures of strains.
     fabric: Fabric,
     pressure_model: PressureModel,
-    /// Pressures by thread then by annotation, in kPa per strain.
+    /// Pressures by bundle then by annotation, in kPa per strain.
     pressures: Vec<Vec<f64>>,
-    /// Motions of the vertices by thread, in mm per strain; none where they were not solved for.
+    /// Motions of the vertices by bundle, in mm per strain; none where they were not solved for.
     pub(super) motions: Vec<Vec<DVec2>>,
 }
 
@@ -42,6 +42,7 @@ impl Answers {
         let FitInput { annotations, fabric, pressure_model, .. } = *threads.input;
         let points = annotations.iter().map(|annotation| annotation.point);
         self.groups == threads.groups
+            && self.bundles == threads.bundles
             && self.points.iter().copied().eq(points)
             && self.fabric == *fabric
             && self.pressure_model == pressure_model
@@ -64,32 +65,31 @@ impl Threads<'_> {
     pub(super) fn answers(
         &self,
         coordinates: &[DVec2],
-        here: &[Reached],
         got: &[f64],
         answers: impl Fn(&[Targets]) -> Vec<Vec<DVec2>>,
     ) -> Answers {
         let FitInput { annotations, fabric, pressure_model, .. } = *self.input;
-        let count = self.groups.len();
-        // Away from the nearer end of the range, where the function is held.
-        let step = |asked: f64| if asked > 0.5 * fabric.max_strain { -PROBE } else { PROBE };
+        let count = self.bundles.len();
         let solved: Vec<(usize, f64)> = (0..count)
-            .filter_map(|i| Some((i, step(self.asked[i]?))))
-            .filter(|_| count <= MOST_SOLVED)
+            .filter_map(|i| {
+                let asked = self.asked_of(i);
+                // Away from the nearer end of the range, where the function is held.
+                let mean = asked.iter().sum::<f64>() / asked.len() as f64;
+                let step = if mean > 0.5 * fabric.max_strain { -PROBE } else { PROBE };
+                (!asked.is_empty()).then_some((i, step))
+            })
             .collect();
         let others: Vec<Targets> = solved
             .iter()
-            .map(|&(i, step)| {
+            .map(|(i, step)| {
                 let mut other = self.asked.clone();
-                other[i] = other[i].map(|asked| asked + step);
+                for asked in &mut other[self.bundles[*i].clone()] {
+                    *asked = asked.map(|asked| asked + step);
+                }
                 self.with(coordinates, &other)
             })
             .collect();
         let mut pressures = vec![vec![0.0; annotations.len()]; count];
-        if count > MOST_SOLVED {
-            for (group, pressures) in self.groups.iter().zip(&mut pressures) {
-                group.iter().for_each(|&k| pressures[k] = self.own(&here[k]));
-            }
-        }
         // A few at a time, between which the job can be cancelled.
         let moved = others.chunks(AT_ONCE).flat_map(answers);
         let mut motions = vec![Vec::new(); count];
@@ -102,6 +102,7 @@ impl Threads<'_> {
         }
         Answers {
             groups: self.groups.clone(),
+            bundles: self.bundles.clone(),
             points: annotations.iter().map(|annotation| annotation.point).collect(),
             fabric: fabric.clone(),
             pressure_model,
@@ -110,29 +111,37 @@ impl Threads<'_> {
         }
     }
 
+    /// The targets of the threads of a bundle that can be pressed on.
+    fn asked_of(&self, bundle: usize) -> Vec<f64> {
+        self.asked[self.bundles[bundle].clone()].iter().copied().flatten().collect()
+    }
+
     /// The changes that bring the pressures nearest to what was asked, by the answers.
     pub(super) fn changes(&self, here: &[Reached], got: &[f64], counts: &[bool]) -> Vec<f64> {
         let FitInput { annotations, fabric, .. } = *self.input;
-        let count = self.groups.len();
+        let count = self.bundles.len();
         let answers = self.answers.as_ref().map_or(&[][..], |answers| &answers.pressures);
         let mut problem = LeastSquares::new(count);
         for k in (0..annotations.len()).filter(|&k| counts[k]) {
             let row: Vec<f64> = (0..count).map(|i| answers[i][k]).collect();
             problem.add(&row, annotations[k].kpa - got[k], 1.0);
         }
-        let limits: Vec<[f64; 2]> = (0..count)
-            .map(|i| {
-                let (Some(asked), Some(wanted)) = (self.asked[i], self.wanted[i]) else {
-                    return [0.0, 0.0];
+        let mut limits = vec![[0.0, 0.0]; count];
+        for (i, bundle) in self.bundles.iter().enumerate() {
+            for thread in bundle.clone() {
+                let (Some(asked), Some(wanted)) = (self.asked[thread], self.wanted[thread]) else {
+                    continue;
                 };
                 let wanted = wanted.clamp(0.0, fabric.max_strain);
-                let own = self.groups[i].iter().map(|&k| self.own(&here[k]).powi(2));
+                let own = self.groups[thread].iter().map(|&k| self.own(&here[k]).powi(2));
                 let mut row = vec![0.0; count];
                 row[i] = own.sum::<f64>().sqrt();
                 problem.add(&row, row[i] * (wanted - asked), EFFORT);
-                [-asked, fabric.max_strain - asked]
-            })
-            .collect();
+                // As far as any of them can go; those that cannot stay at the end of their range.
+                let [low, high] = limits[i];
+                limits[i] = [f64::min(low, -asked), f64::max(high, fabric.max_strain - asked)];
+            }
+        }
         problem.solve(&limits)
     }
 }
