@@ -181,6 +181,30 @@ fn wishes_that_contradict_each_other_end_at_rest_and_are_told() {
     assert!(corrected.report.pressures.iter().all(|row| row.reason.is_some()));
 }
 
+/// In a stiff fabric wishes differ by less than a hundredth of strain, and still cannot both be met.
+#[test]
+fn what_a_neighbour_draws_away_is_not_laid_to_the_limbs_shape() {
+    let codes = |worn: &Flattening| -> Vec<Option<&'static str>> {
+        let rows = worn.report.pressures.iter();
+        rows.map(|row| row.reason.as_ref().map(|reason| reason.code)).collect()
+    };
+    let design = two([(47.0, 1.0), (53.0, 1.6)], [40.0, 40.0], [4.0, 4.0, 3.0]);
+    let shape = tube([40.0, 40.0], 40, 20, 100.0);
+    let worn = flatten(&shape, &design, &Parameters::default(), &Silent).unwrap();
+    assert_eq!(codes(&worn), [Some("neighbour_conflict"); 2]);
+    let text = |k: usize| worn.report.pressures[k].reason.as_ref().unwrap().text.as_str();
+    assert!(text(0).contains("point 2 wants") && text(1).contains("point 1 wants"), "{}", text(0));
+    // A point by itself that is missed for its limb's shape keeps that reason.
+    let radius = |t: f64| 50.0 - 15.0 * (2.0 * t - 1.0).powi(2);
+    let at = DVec3::new(-radius(1.0 / 3.0), 0.0, 40.0);
+    let pressures = vec![WantedPressure { at, kpa: 2.0 }];
+    let design = Design { pressures, ..Design::default() };
+    let parameters = Parameters { correct_pressures: false, ..Parameters::default() };
+    let barrel = revolved(radius, 56, 24, 120.0);
+    let worn = flatten(&barrel, &design, &parameters, &Silent).unwrap();
+    assert_eq!(codes(&worn), [Some("shape")]);
+}
+
 /// Soft along weft: the energy is an uncertain judge of a step, and was one that ended the
 /// fit after four.
 #[test]

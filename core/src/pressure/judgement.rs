@@ -104,7 +104,8 @@ impl Reason {
             ),
             Self::NeighbourConflict { others } => format!(
                 "{} too near to this thread: the fabric cannot change its strain in so short a \
-                 way; ask for values closer to each other, or move the points apart",
+                 way; ask for more where it presses too much and for less where too little, or \
+                 move the points apart",
                 wants_another(others)
             ),
             Self::WeftTension { strain, kpa } => format!(
@@ -166,6 +167,10 @@ const SAME_STRAIN: f64 = 0.03;
 /// Over this distance along the limb, in mm, the fabric's shear makes neighbouring threads alike.
 const NEIGHBOURHOOD: f64 = 60.0;
 
+/// A neighbour that misses by more than this fraction in the other direction is drawn by this one: as much as
+/// corrected pressures may be off.
+const OPPOSITE_MISS: f64 = 0.02;
+
 /// A pressure is never called missed by less than this, in kPa: below what a sensor under a brace
 /// resolves (0.5 mmHg is 0.07 kPa).
 const LEAST_MISS_KPA: f64 = 0.05;
@@ -200,15 +205,32 @@ pub fn judge(
 ) -> Vec<Judgement> {
     let radius = parameters.curvature_radius;
     let reached = Reader::new(brace.disk, annotations, radius).read(brace.coordinates);
+    let got: Vec<f64> = reached
+        .iter()
+        .enumerate()
+        .map(|(k, reached)| {
+            let stretch = match (pressure_model, brace.woven) {
+                (PressureModel::Paper, Some(woven)) => {
+                    springs_at(&woven.model, woven.nodes[k]).unwrap_or(reached.threads)
+                }
+                _ => reached.threads,
+            };
+            pressure_kpa(pressure_model, fabric, &reached.curvature, &stretch)
+        })
+        .collect();
     (0..annotations.len())
-        .map(|k| judge_one(brace, annotations, &reached, k, fabric, pressure_model, parameters))
+        .map(|k| {
+            judge_one(brace, annotations, &reached, &got, k, fabric, pressure_model, parameters)
+        })
         .collect()
 }
 
+#[expect(clippy::too_many_arguments, reason = "one private caller, and every one is evidence")]
 fn judge_one(
     brace: &Brace<'_>,
     annotations: &[Annotation],
     reached: &[Reached],
+    got: &[f64],
     k: usize,
     fabric: &Fabric,
     pressure_model: PressureModel,
@@ -216,19 +238,12 @@ fn judge_one(
 ) -> Judgement {
     let annotation = &annotations[k];
     let Reached { place, curvature, threads, local } = reached[k];
-    let stretch = match (pressure_model, brace.woven) {
-        (PressureModel::Paper, Some(woven)) => {
-            springs_at(&woven.model, woven.nodes[k]).unwrap_or(threads)
-        }
-        _ => threads,
-    };
-    let got_kpa = pressure_kpa(pressure_model, fabric, &curvature, &stretch);
     let got_local_kpa = pressure_kpa(pressure_model, fabric, &curvature, &local);
     let most = (parameters.miss_tolerance * annotation.kpa).max(LEAST_MISS_KPA);
-    let reason = ((got_kpa - annotation.kpa).abs() > most)
-        .then(|| why(brace, annotations, reached, k, fabric, pressure_model, parameters, got_kpa));
+    let reason = ((got[k] - annotation.kpa).abs() > most)
+        .then(|| why(brace, annotations, reached, got, k, fabric, pressure_model, parameters));
     Judgement {
-        got_kpa,
+        got_kpa: got[k],
         got_local_kpa,
         curvature,
         warp_strain: threads.warp,
@@ -257,11 +272,11 @@ fn why(
     brace: &Brace<'_>,
     annotations: &[Annotation],
     places: &[Reached],
+    got: &[f64],
     k: usize,
     fabric: &Fabric,
     pressure_model: PressureModel,
     parameters: &Parameters,
-    got_kpa: f64,
 ) -> Reason {
     let curvature = &places[k].curvature;
     let (reached, weft) = (places[k].threads.warp, places[k].threads.weft);
@@ -304,12 +319,12 @@ fn why(
         return Reason::FreeEdge { distance };
     }
     let off = reached - given;
+    let over = got[k] - annotations[k].kpa;
     if off.abs() <= SAME_STRAIN * given {
         let stretch = Stretch::without_shear(reached, weft);
         let slack = Stretch { weft: 0.0, ..stretch };
         let from_weft = pressure_kpa(pressure_model, fabric, curvature, &stretch)
             - pressure_kpa(pressure_model, fabric, curvature, &slack);
-        let over = got_kpa - annotations[k].kpa;
         return if over > 0.0 && from_weft > 0.5 * over {
             Reason::WeftTension { strain: weft, kpa: from_weft }
         } else {
@@ -317,6 +332,19 @@ fn why(
         };
     }
     let others = wanting_else(NEIGHBOURHOOD, &|toward| toward * off > 0.0);
+    if !others.is_empty() {
+        return Reason::NeighbourConflict { others };
+    }
+    // Where the targets were left for each other's sake, one has too much and the other too little.
+    let others: Vec<usize> = (0..annotations.len())
+        .filter(|&other| other != k && apart(other) <= NEIGHBOURHOOD)
+        .filter(|&other| {
+            let Annotation { kpa, .. } = annotations[other];
+            let opposite = (kpa - got[other]) * over.signum();
+            opposite > OPPOSITE_MISS * kpa
+                && needs(targets.wishes[other]).is_some_and(|strain| (strain - needed) * over > 0.0)
+        })
+        .collect();
     if !others.is_empty() {
         return Reason::NeighbourConflict { others };
     }

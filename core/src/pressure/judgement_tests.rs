@@ -162,6 +162,18 @@ fn wishes_on_neighbouring_threads_name_each_other_and_distant_ones_do_not() {
 }
 
 #[test]
+fn neighbours_missed_in_opposite_directions_name_each_other() {
+    // They want strains of 0.072 and 0.082: less than a hundredth apart.
+    let pair = |[low, high]: [f64; 2]| [wish(low, 0.8), wish(high, 0.91)];
+    let between = judged(&pair([50.0, 80.0]), strain(0.855), true);
+    assert_eq!(between[0].reason, Some(Reason::NeighbourConflict { others: vec![1] }));
+    assert_eq!(between[1].reason, Some(Reason::NeighbourConflict { others: vec![0] }));
+    // Both too much, or too far from each other.
+    assert_eq!(reasons(&judged(&pair([50.0, 80.0]), strain(1.1), true)), [Some("shape"); 2]);
+    assert_eq!(reasons(&judged(&pair([15.0, 100.0]), strain(0.855), true)), [Some("shape"); 2]);
+}
+
+#[test]
 fn weft_threads_that_press_are_named_and_slack_ones_are_not() {
     // 0.5 N/mm at 4 % on a curvature of 0.01 per mm is 0.2 kPa, less what the warp loses.
     let pressed = judged_along(&[wish(60.0, 2.0)], strain(2.0) + 0.005, 0.04, true);
