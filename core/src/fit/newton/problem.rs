@@ -38,6 +38,8 @@ pub struct Problem<'a> {
 /// A factorized Hessian.
 pub struct Model {
     factor: SurfaceFactor,
+    /// Pattern coordinates at which it was taken.
+    pub place: Vec<DVec2>,
     /// Along which the sewn edges pull: a force across the course that was factorized would move the
     /// fabric as if nothing held it.
     pub courses: Courses,
@@ -185,7 +187,8 @@ impl<'a> Problem<'a> {
         let mut solutions = matrix.solve(&factor, &[&row, &slide, &downhill]).into_iter();
         let mut next = || solutions.next().unwrap_or_default();
         let (upright, slide, pinned) = (next(), next(), next());
-        let model = Model { factor, courses, upright, slide };
+        let place = at.coordinates.to_vec();
+        let model = Model { factor, place, courses, upright, slide };
         let motion = self.freed(&model, &pinned);
         Ok(Some(Solved { model, downhill, motion }))
     }

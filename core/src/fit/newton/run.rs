@@ -10,7 +10,8 @@ use super::element::Order;
 use super::pressures::{Correction, Threads};
 use super::problem::{Model, Place, Problem, Room, Solved};
 use super::seam::Pull;
-use super::triangles::{Turning, Wanted};
+use super::step::{Rest, Step, most};
+use super::triangles::{Forces, Turning, Wanted};
 use super::{Below, Earlier, Kept, Solver};
 use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
 use crate::pressure::Targets;
@@ -24,12 +25,6 @@ const NEAR_ENERGY: f64 = 0.02;
 /// They are corrected for the first time after a step that moves no vertex by more than this, in mm: the
 /// fabric is then still on its way, and goes to another place at no cost.
 const FIRST_MM: f64 = 35.0;
-
-/// At rest the acceleration, too, moves no vertex by more than the tolerance times this.
-const FURTHER: f64 = 2.0;
-
-/// So many steps within the tolerance, one after the other, are rest whatever the acceleration wants.
-const RESTING: usize = 6;
 
 /// Steps that move no vertex by more than this are taken as they are: what follows the fabric (threads,
 /// turning springs, a seam's course) makes the energy an uncertain judge of them.
@@ -60,6 +55,9 @@ const TURN_MM: f64 = 0.1;
 
 /// A step halved this often is no step.
 const HALVINGS: usize = 12;
+
+/// Accelerated steps that would move a vertex by more than this are not taken.
+const ACCELERATED_MM: f64 = 4.0;
 
 /// A fit on its way.
 pub struct Run<'a> {
@@ -97,27 +95,6 @@ enum Advance {
     Searched,
     /// Not at all: there is no way down.
     Nowhere,
-}
-
-/// A step on trial.
-struct Step {
-    motion: Vec<DVec2>,
-    /// Largest movement of a vertex, in mm.
-    largest: f64,
-    /// Derivative of the energy along it, in N·mm.
-    slope: f64,
-}
-
-impl Step {
-    fn new(motion: Vec<DVec2>, downhill: &[f64]) -> Self {
-        let slope = -motion
-            .iter()
-            .zip(downhill.chunks_exact(2))
-            .map(|(m, d)| m.x * d[0] + m.y * d[1])
-            .sum::<f64>();
-        let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
-        Self { motion, largest, slope }
-    }
 }
 
 /// The plane turned so that the first marker stands vertically above the second.
@@ -190,7 +167,7 @@ impl<'a> Run<'a> {
         let parameters = self.problem.input.parameters;
         let mut targets = self.threads.targets(&self.coordinates);
         self.record(&targets);
-        let mut resting = 0;
+        let mut rest = Rest::new(parameters.newton_tolerance);
         let stopped = loop {
             let wanted = self.wanted(&targets);
             let turning = self.problem.solver.triangles.turning(
@@ -207,6 +184,7 @@ impl<'a> Run<'a> {
             }
             let before = self.state();
             let advance = self.advance(&step, &wanted, &turning);
+            let relaxed = self.relax(&step, &wanted, &turning);
             self.iterations += 1;
             self.last = step.largest;
             self.far = step.largest > FAR_MM;
@@ -225,7 +203,8 @@ impl<'a> Run<'a> {
                 self.anderson.forget();
                 self.last = f64::INFINITY;
             }
-            let rests = step.largest < parameters.newton_tolerance && settled && !turned;
+            let moved = most(&step.motion).max(relaxed);
+            let rests = rest.within(moved) && settled && !turned;
             match correction {
                 Some(correction) if !rests => self.take(&correction),
                 Some(_) => {}
@@ -235,9 +214,7 @@ impl<'a> Run<'a> {
                 if advance == Advance::Trusted { self.accelerate(&before) } else { step.largest };
             targets = self.threads.targets(&self.coordinates);
             self.record(&targets);
-            resting = if rests { resting + 1 } else { 0 };
-            let stays = further < FURTHER * parameters.newton_tolerance || resting >= RESTING;
-            if rests && stays {
+            if rest.comes(rests, further) {
                 break if lost { Stopped::Unsettled } else { Stopped::Gradient };
             }
             if self.iterations >= parameters.newton_steps || advance == Advance::Nowhere {
@@ -362,14 +339,28 @@ impl<'a> Run<'a> {
         let motion: Vec<DVec2> =
             taken[..coordinates].chunks_exact(2).map(DVec2::from_slice).collect();
         let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
-        if largest >= TRUSTED_MM || self.problem.solver.triangles.longest_step(&from, &motion) < 1.0
-        {
+        let longest = self.problem.solver.triangles.longest_step(&from, &motion);
+        if largest >= ACCELERATED_MM || longest < 1.0 {
             return largest;
         }
         self.coordinates = from.iter().zip(&motion).map(|(&p, &d)| p + d).collect();
         let targets = before[coordinates..].iter().zip(&taken[coordinates..]);
         self.threads.accelerate(targets.map(|(from, step)| (from + step) / self.scale));
-        largest
+        most(&motion)
+    }
+
+    /// Lets vertices come to rest where the Hessian at hand does not serve; how far they were from it, in mm.
+    fn relax(&mut self, step: &Step, wanted: &Wanted, turning: &[Turning]) -> f64 {
+        let Some(model) = self.model.as_ref().filter(|_| step.largest < KEPT_MM) else {
+            return 0.0;
+        };
+        // Neither what seams hold nor what holds the markers upright.
+        let Problem { solver, springs, input, .. } = &self.problem;
+        let sewn = solver.sewn.cliques().iter().flatten().copied();
+        let held = sewn.chain(self.problem.upright().iter().map(|&(i, _)| i / 2));
+        let forces = Forces { springs, wanted, turning };
+        let tolerance = input.parameters.newton_tolerance;
+        solver.triangles.relax(&mut self.coordinates, &model.place, held, &forces, tolerance)
     }
 
     /// Moves the vertices.

@@ -4,6 +4,8 @@ use std::f64::consts::TAU;
 
 use glam::{DVec2, DVec3};
 
+use super::element::Springs;
+use super::triangles::{Forces, Wanted};
 use super::{Earlier, Solver};
 use crate::design::{Fabric, PressureModel};
 use crate::fit::{Fit, FitError, FitInput, Misfit, Stopped};
@@ -442,6 +444,45 @@ fn begun_on_fewer_vertices_it_comes_to_the_same_in_fewer_steps() {
     let short = case.coarse_to_fine().fit(&case.input(), None, &Silent).unwrap().0;
     assert_eq!(short.iterations, few);
     assert!(gap(&case.placed(&short), &case.placed(&plain)) < 1.0);
+}
+
+#[test]
+fn what_has_changed_much_comes_to_rest_by_itself_and_nothing_else_moves() {
+    let case = barrel(24, 40, false);
+    let (solver, fit) = (case.solver(), case.fit());
+    let springs = {
+        let Fabric { warp, weft, diagonal, .. } = case.fabric;
+        Springs { warp, weft, diagonal }
+    };
+    let wanted = Wanted::new(&fit.targets, case.fabric.weft_strain);
+    let turning = solver.triangles.turning(&fit.coordinates, &springs, &wanted, 5.0);
+    let forces = Forces { springs: &springs, wanted: &wanted, turning: &turning };
+    let [free, held] = [6 * 41 + 10, 17 * 41 + 30];
+    let relaxed = |coordinates: &[DVec2]| {
+        let mut at = coordinates.to_vec();
+        let (held, tolerance) = (std::iter::once(held), case.parameters.newton_tolerance);
+        let first = solver.triangles.relax(&mut at, &fit.coordinates, held, &forces, tolerance);
+        (at, first)
+    };
+    // At the minimum, and near it, nothing has.
+    let near: Vec<DVec2> = fit.coordinates.iter().map(|p| 1.02 * *p).collect();
+    for coordinates in [&fit.coordinates, &near] {
+        assert_eq!(relaxed(coordinates), (coordinates.clone(), 0.0));
+    }
+    let mut pushed = fit.coordinates.clone();
+    let edge = pushed[free].distance(pushed[free + 1]);
+    for v in [free, held] {
+        pushed[v] += edge * DVec2::new(0.3, 0.2);
+    }
+    let (at, first) = relaxed(&pushed);
+    assert!(first > 0.2 * edge, "{first} of {edge}");
+    assert_eq!(at[held], pushed[held]);
+    assert!(at[free].distance(fit.coordinates[free]) < 0.02 * edge);
+    // Only what the held one pulls along and the pushed one's neighbours have moved.
+    let moved = at.iter().zip(&fit.coordinates).filter(|(a, b)| a != b).count();
+    assert!((2..=14).contains(&moved), "{moved}");
+    let energy = |at: &[DVec2]| solver.triangles.energy(at, &springs, &wanted, &turning);
+    assert!(energy(&at) < energy(&pushed));
 }
 
 #[test]

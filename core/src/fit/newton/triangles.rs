@@ -1,8 +1,11 @@
 //! The worn triangles as the fit needs them, and the energy's sums over them.
 
+mod relax;
+
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
 
+pub use self::relax::Forces;
 use super::element::{
     Gradients, Order, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
 };
