@@ -261,9 +261,7 @@ parameters! {
     newton_tolerance: f64 = 0.01, "mm", Kind::Number(1e-9..=1.0),
         "Converged when a whole Newton step moves no point of the pattern farther than this.",
         "The step is the gradient of the energy scaled by its Hessian: what is still missing to \
-         the minimum. One vertex in a thousand may move by up to three times as much: where the \
-         pattern folds and is stretched beyond any fabric, a few never rest. A pattern is cut to \
-         some tenths of a millimetre.";
+         the minimum. A pattern is cut to some tenths of a millimetre.";
     newton_steps: u64 = 100, "", Kind::Integer(1..=10_000),
         "Most Newton steps of all vertices.",
         "The sample limbs need three to thirty; those on fewer vertices with which a fit begins are not counted. \

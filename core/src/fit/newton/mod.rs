@@ -13,8 +13,8 @@
 //! directions of the turning springs) is brought up to date before every step.
 //!
 //! It ends when the full step, which is the gradient scaled by the Hessian, moves no vertex by more
-//! than `newton_tolerance` (`step`; one in a thousand by up to three times as much, where a fold is
-//! stretched beyond any fabric; there, vertices come to rest one by one: `triangles::relax`).
+//! than `newton_tolerance` (`step`). Where a fold is stretched beyond any fabric, vertices come to
+//! rest one by one on the way (`triangles::relax`).
 //!
 //! Limit: triangles never turn over, but the outline may cross itself on a limb that cannot be
 //! flattened in one piece; the pattern says where.

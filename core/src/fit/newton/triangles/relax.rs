@@ -16,7 +16,7 @@ use crate::fit::newton::element::{
 };
 
 /// Where a triangle's shape has changed by more than this share, its corners are relaxed. At 0.06 so many of a
-/// wrist's are that they hinder the steps; at 0.1 and 0.2 an ankle needs as few.
+/// wrist's are that they hinder the steps.
 const CHANGED: f64 = 0.2;
 
 /// Sweeps over them, there and back in turn.
