@@ -5,7 +5,8 @@
 //! a doubly curved limb shares the misfit out. The paper stops there. Here the targets are
 //! corrected: the pressures P that the pattern gives are computed from the whole threads' strains, how
 //! they answer to each target is read off the fit's own Hessian (one solve a thread, or a bundle of
-//! neighbours where they are many), and the targets that bring P nearest to what was asked (least squares, within [0, max_strain]) are taken:
+//! neighbours where they are many), and the targets that bring P nearest to what was asked (least squares,
+//! within [0, max_strain]) are taken:
 //!
 //! min ½ Σ_j (P_j + Σ_i S_ji Δ_i − P⁰_j)² + ½ α Σ_i (p_i (τ_i + Δ_i − w_i))²
 //!
