@@ -19,6 +19,13 @@ use crate::fit::newton::element::{
 /// wrist's are that they hinder the steps.
 const CHANGED: f64 = 0.2;
 
+/// Where more vertices than this share of all are to be relaxed the Hessian is of no use anywhere, and they are left
+/// to the next one: sweeps over many take long, and cannot be cancelled.
+const MOST: f64 = 0.02;
+
+/// So many are always few.
+const FEW: usize = 200;
+
 /// Sweeps over them, there and back in turn.
 const SWEEPS: usize = 6;
 
@@ -51,6 +58,9 @@ impl Triangles {
         tolerance: f64,
     ) -> f64 {
         let vertices = self.changed(coordinates, earlier, held);
+        if vertices.len() > FEW.max((MOST * coordinates.len() as f64) as usize) {
+            return 0.0;
+        }
         let mut first = 0.0;
         for sweep in 0..SWEEPS {
             let mut most = 0.0f64;
