@@ -320,20 +320,23 @@ fn why(
     }
     let off = reached - given;
     let over = got[k] - annotations[k].kpa;
-    if off.abs() <= SAME_STRAIN * given {
+    let as_given = off.abs() <= SAME_STRAIN * given;
+    if as_given {
         let stretch = Stretch::without_shear(reached, weft);
         let slack = Stretch { weft: 0.0, ..stretch };
         let from_weft = pressure_kpa(pressure_model, fabric, curvature, &stretch)
             - pressure_kpa(pressure_model, fabric, curvature, &slack);
-        return if over > 0.0 && from_weft > 0.5 * over {
-            Reason::WeftTension { strain: weft, kpa: from_weft }
-        } else {
-            Reason::BetweenThreads { spacing: brace.spacing }
-        };
-    }
-    let others = wanting_else(NEIGHBOURHOOD, &|toward| toward * off > 0.0);
-    if !others.is_empty() {
-        return Reason::NeighbourConflict { others };
+        if over > 0.0 && from_weft > 0.5 * over {
+            return Reason::WeftTension { strain: weft, kpa: from_weft };
+        }
+        if brace.woven.is_some() {
+            return Reason::BetweenThreads { spacing: brace.spacing };
+        }
+    } else {
+        let others = wanting_else(NEIGHBOURHOOD, &|toward| toward * off > 0.0);
+        if !others.is_empty() {
+            return Reason::NeighbourConflict { others };
+        }
     }
     // Where the targets were left for each other's sake, one has too much and the other too little.
     let others: Vec<usize> = (0..annotations.len())
@@ -348,7 +351,8 @@ fn why(
     if !others.is_empty() {
         return Reason::NeighbourConflict { others };
     }
-    Reason::Shape { wanted: given, reached }
+    // A corrected target that was taken as it is says nothing: what the wish needs does.
+    Reason::Shape { wanted: if as_given { needed } else { given }, reached }
 }
 
 /// Distance in space from a place to the nearest free edge, in mm.

@@ -9,6 +9,7 @@ use super::{Annotation, Brace, Judgement, Reason, judge, target_strains};
 use crate::design::{Fabric, PressureModel};
 use crate::geometry::{Locator, ShapeOperator};
 use crate::parameters::Parameters;
+use crate::pressure::Woven;
 use crate::surface::{HalfEdgeId, Surface, VertexId};
 use crate::weave::lay;
 
@@ -56,6 +57,17 @@ fn judged(wishes: &[Wish], reached: f64, converged: bool) -> Vec<Judgement> {
 
 /// The same on a pattern that is also shorter by `weft`, on a limb that bulges along its length.
 fn judged_along(wishes: &[Wish], reached: f64, weft: f64, converged: bool) -> Vec<Judgement> {
+    judged_with(wishes, reached, weft, converged, false)
+}
+
+/// The same, with the threads of a woven model if wanted.
+fn judged_with(
+    wishes: &[Wish],
+    reached: f64,
+    weft: f64,
+    converged: bool,
+    with_threads: bool,
+) -> Vec<Judgement> {
     let (disk, development) = slit_cylinder();
     let plane: Vec<DVec2> =
         development.iter().map(|p| DVec2::new(p.x / (1.0 + reached), p.y / (1.0 + weft))).collect();
@@ -90,12 +102,14 @@ fn judged_along(wishes: &[Wish], reached: f64, weft: f64, converged: bool) -> Ve
         .flat_map(|boundary| boundary.half_edges.clone())
         .filter(|&h| disk.point(disk.from(h)).z == disk.point(disk.to(h)).z)
         .collect();
+    let spacing = model.spacing();
+    let woven = Woven { model, nodes: targets.nodes.clone() };
     let brace = Brace {
         disk: &disk,
         coordinates: &plane,
         free_edges: &free_edges,
-        woven: None,
-        spacing: model.spacing(),
+        woven: with_threads.then_some(&woven),
+        spacing,
         targets: &targets.targets,
         converged,
     };
@@ -186,11 +200,21 @@ fn weft_threads_that_press_are_named_and_slack_ones_are_not() {
 }
 
 #[test]
-fn a_thread_with_its_strain_and_another_pressure_is_between_threads() {
+fn a_thread_with_its_strain_and_another_pressure_is_between_threads_where_there_are_threads() {
     // 2.0 and 2.1 kPa are one wish for a thread; it has 2.7 % more than their mean.
     let second = Wish { degrees: 90.0, ..wish(60.0, 2.1) };
-    let pair = judged(&[wish(60.0, 2.0), second], 1.027 * strain(2.05), true);
-    assert_eq!(reasons(&pair), [Some("between_threads"), None]);
+    let pair = [wish(60.0, 2.0), second];
+    let reached = 1.027 * strain(2.05);
+    let woven = judged_with(&pair, reached, 0.0, true, true);
+    assert_eq!(reasons(&woven), [Some("between_threads"), None]);
+    // A smaller spacing changes nothing where the fit has no threads of a model.
+    let plain = judged(&pair, reached, true);
+    assert!(
+        matches!(plain[0].reason, Some(Reason::Shape { wanted, reached: got })
+            if (wanted - strain(2.0)).abs() < 1e-9 && (got - reached).abs() < 1e-3),
+        "{plain:?}"
+    );
+    assert_eq!(plain[1].reason, None);
 }
 
 #[test]
