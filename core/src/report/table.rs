@@ -57,7 +57,7 @@ pub fn pressure_table(report: &Report) -> String {
 fn farthest(report: &Report) -> Option<String> {
     let reached = report.pressures.iter().filter(|p| p.reason.is_none() && p.asked_kpa > 0.0);
     let off = reached.filter_map(|p| Some((p.got_kpa? / p.asked_kpa - 1.0).abs()));
-    let most = off.fold(None, |most: Option<f64>, off| Some(most.map_or(off, |m| m.max(off))))?;
+    let most = off.reduce(f64::max)?;
     Some(format!("Those reached are off by {:.1} % at most.\n", 100.0 * most))
 }
 
