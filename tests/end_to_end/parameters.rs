@@ -136,7 +136,7 @@ fn changes() -> BTreeMap<&'static str, Change> {
         },
     );
     cases.insert("method", plain(&["--method=diffusion"]));
-    cases.insert("newton_tolerance", plain(&["--newton-tolerance", "1"]));
+    cases.insert("newton_tolerance", plain(&["--newton-tolerance", "0.0000001"]));
     cases.insert("newton_steps", plain(&["--newton-steps", "2"]));
     cases.insert("equal_seams", plain(&["--equal-seams=false"]));
     cases.insert("correct_pressures", plain(&["--correct-pressures=false"]));

@@ -138,10 +138,14 @@ impl Coarse {
         }
         let spread = |values: &[DVec2]| refined(disk, &omega, values, places, input.omega);
         let start = match before {
-            // Targets that were corrected on fewer vertices are no help: threads of contrary wishes then cycled.
+            // Targets that were corrected on fewer vertices are of use if that met the pressures: those of contrary
+            // wishes made threads cycle.
             None => Fit {
                 coordinates: spread(&fit.coordinates),
-                targets: Targets { threads: Vec::new(), ..fit.targets.clone() },
+                targets: Targets {
+                    threads: if run.met() { fit.targets.threads.clone() } else { Vec::new() },
+                    ..fit.targets.clone()
+                },
                 ..fit.clone()
             },
             Some((earlier, below)) => {

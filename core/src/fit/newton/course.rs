@@ -9,6 +9,10 @@ const REST_MM: f64 = 0.1;
 /// No correction changes a target by more.
 const MOST_REACH: f64 = 0.1;
 
+/// Nor by more than this while the fabric is on its way, but for the first: what it answers there is not to be relied on,
+/// and contrary wishes were driven to the ends of their range.
+const REACH_ON_ITS_WAY: f64 = 0.03;
+
 /// Of what is missed, kPa²: where less was missed before, it is gone back there.
 const GOOD_AS_BEST: f64 = 0.8;
 
@@ -53,6 +57,11 @@ impl Course {
         }
     }
 
+    /// By how much a target may change at the correction of this number, counted from 1.
+    pub fn reach_of(&self, round: usize, near: bool) -> f64 {
+        if near || round == 1 { self.reach } else { self.reach.min(REACH_ON_ITS_WAY) }
+    }
+
     /// Remembers targets with which at rest less is missed than with any before.
     pub fn remember(&mut self, missed: f64, largest: f64, targets: &[Option<f64>]) {
         if largest < REST_MM && self.best.as_ref().is_none_or(|(least, _)| missed < *least) {
@@ -83,6 +92,12 @@ mod tests {
         assert_eq!(course.reach, 0.03);
         assert_eq!(course.best, Some((1.0, vec![Some(0.1)])));
         assert!(course.was_better(4.0) && !course.was_better(1.2));
+        // Nor does it change much on its way, but for the first.
+        course.reach = 0.06;
+        assert_eq!(
+            [(1, false), (2, true), (2, false)].map(|(n, near)| course.reach_of(n, near)),
+            [0.06, 0.06, 0.03]
+        );
         // Far from rest somewhat more is no bad sign, and nothing is remembered.
         course.remember(0.1, 5.0, &[Some(0.3)]);
         assert_eq!(course.best, Some((1.0, vec![Some(0.1)])));

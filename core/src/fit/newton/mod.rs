@@ -3,7 +3,7 @@
 //!
 //! The same J_E as the woven nodes' (`element`), with nothing to insert, to remove or to interpolate:
 //! the outline is exact and the sparsity never changes. Each step takes the Gauss–Newton matrix, or near
-//! the minimum all of the Hessian made convex by triangle (`element`), one sparse Cholesky
+//! the minimum the Hessian made nearly convex by triangle (`element`), one sparse Cholesky
 //! factorization (the crate's `sparse`), and a line search that never lets a
 //! triangle turn over. Sewn edges keep equal lengths (`seam`), shortened threads do not buckle
 //! (`straight`), the markers stay on one weft line as a linear constraint, and the target strains are
@@ -12,9 +12,15 @@
 //! part of the derivatives; what follows in turn (the threads through the annotated points, the
 //! directions of the turning springs) is brought up to date before every step.
 //!
+//! Where steps shrink slowly the fabric is softer than that matrix: a lobe swings about a fold whose
+//! triangles are far from convex. Then the step is made exact: the equations with the forces' true
+//! derivatives, as differences, are solved by GMRES with the factorized matrix as preconditioner
+//! (`run::exact`, `krylov`; a Newton–Krylov method, Knoll & Keyes, *Jacobian-free Newton–Krylov
+//! methods*, 2004).
+//!
 //! It ends when the full step, which is the gradient scaled by the Hessian, moves no vertex by more
-//! than `newton_tolerance` (`step`). Where a fold is stretched beyond any fabric, vertices come to
-//! rest one by one on the way (`triangles::relax`).
+//! than `newton_tolerance` (`step`); where steps had to be made exact, the exact one. Where a fold is
+//! stretched beyond any fabric, vertices come to rest one by one on the way (`triangles::relax`).
 //!
 //! Limit: triangles never turn over, but the outline may cross itself on a limb that cannot be
 //! flattened in one piece; the pattern says where.
@@ -24,6 +30,7 @@ mod coarse;
 mod course;
 mod eigen;
 mod element;
+mod krylov;
 mod least_squares;
 mod pressures;
 mod problem;

@@ -84,6 +84,8 @@ pub struct Threads<'a> {
     course: Course,
     /// Whether corrections were given up.
     lost: bool,
+    /// Whether the pressures were met as promised at the last correction.
+    met: bool,
 }
 
 /// Corrections are given up after so many: a pressure that has not come by then does not.
@@ -104,6 +106,7 @@ impl<'a> Threads<'a> {
             rounds: 0,
             course: Course::default(),
             lost: false,
+            met: false,
         };
         threads.find(coordinates, None);
         threads
@@ -134,6 +137,11 @@ impl<'a> Threads<'a> {
     /// The answers, for the next fit.
     pub fn into_answers(self) -> Option<Arc<Answers>> {
         self.answers
+    }
+
+    /// Whether the pressures were met when the targets were last corrected.
+    pub fn met(&self) -> bool {
+        self.met
     }
 
     /// Whether there are targets to correct.
@@ -357,6 +365,7 @@ impl<'a> Threads<'a> {
             promised += (PROMISED * asked.max(1.0)).powi(2);
         }
         let misses = missed > promised;
+        self.met = !misses;
         let near = largest < NEAR_MM;
         let worse = misses && self.course.worse(missed, near);
         let changes = vec![0.0; self.bundles.len()];
@@ -385,8 +394,9 @@ impl<'a> Threads<'a> {
             }
             correction.changes = self.changes(&here, &got, &counts);
             let most = correction.most();
-            if most > self.course.reach {
-                let share = self.course.reach / most;
+            let reach = self.course.reach_of(self.rounds, near);
+            if most > reach {
+                let share = reach / most;
                 correction.changes.iter_mut().for_each(|change| *change *= share);
             }
             // Nothing more to be done: by answers from elsewhere that is not to be believed.

@@ -151,7 +151,7 @@ impl<'a> Problem<'a> {
     /// # Errors
     /// If memory runs out or the job is cancelled.
     pub fn unsewn(&self, at: &Place<'_>, room: &mut Room) -> Result<Option<Solved>, FitError> {
-        self.assemble(at, Order::Second, room);
+        self.assemble(at, Order::Convex, room);
         self.solved(at, Courses::default(), room)
     }
 

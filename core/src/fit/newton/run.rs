@@ -1,5 +1,8 @@
 //! The course of a fit: steps until nothing moves any more and the pressures are met.
 
+mod exact;
+mod finish;
+
 use std::sync::Arc;
 
 use glam::DVec2;
@@ -12,7 +15,7 @@ use super::problem::{Model, Place, Problem, Room, Solved};
 use super::seam::Pull;
 use super::step::{Rest, Step};
 use super::triangles::{Forces, Turning, Wanted};
-use super::{Below, Earlier, Kept, Solver};
+use super::{Below, Earlier, Solver};
 use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
 use crate::pressure::Targets;
 use crate::progress::{Progress, Stage};
@@ -36,13 +39,6 @@ const KEPT_MM: f64 = 4.0;
 /// A Hessian is kept while each step shrinks to less than this share of the last.
 const SHRINKS: f64 = 0.5;
 
-/// After steps this small it is kept unless they grow to twice the last: what is left of them comes from what
-/// follows the fabric, and a new Hessian each time made a barrel's steps grow.
-const LAGGING_MM: f64 = 0.3;
-
-/// See [`LAGGING_MM`].
-const LAGS: f64 = 2.0;
-
 /// After steps this large the next is taken by the Gauss–Newton matrix: far from the minimum the
 /// second-order part is rarely positive and seldom of use.
 const FAR_MM: f64 = 10.0;
@@ -50,8 +46,11 @@ const FAR_MM: f64 = 10.0;
 /// After so many tenths of the steps allowed the targets are no longer corrected: the rest is for coming to rest.
 const LATE: u64 = 7;
 
-/// After a step this small, in mm, the courses of the seams are looked at that an earlier fit's Hessian has.
+/// After a step this small, in mm, the courses of the seams are looked at that the Hessian has.
 const TURN_MM: f64 = 0.1;
+
+/// For their sake there are at most so many new Hessians.
+const TURNS: usize = 2;
 
 /// A step halved this often is no step.
 const HALVINGS: usize = 12;
@@ -83,6 +82,10 @@ pub struct Run<'a> {
     resumed: bool,
     /// Whether the last step was a large one.
     far: bool,
+    /// Whether a step had to be made exact: the last ones are then to be exact, too.
+    slow: bool,
+    /// How often the seams' courses may still ask for a new Hessian.
+    turns: usize,
     /// By what a target strain counts beside a coordinate in mm: what it moves the vertices.
     scale: f64,
     pull: Pull,
@@ -150,6 +153,8 @@ impl<'a> Run<'a> {
             kept: false,
             stale: false,
             far: earlier.is_none(),
+            slow: false,
+            turns: TURNS,
             scale,
             pull,
             below: None,
@@ -190,7 +195,11 @@ impl<'a> Run<'a> {
             let advance = self.advance(&step, &wanted, &turning);
             let relaxed = self.relax(&step, &wanted, &turning);
             self.iterations += 1;
-            self.last = step.largest;
+            self.last = step.rough;
+            if step.is_exact() {
+                self.slow = true;
+                self.anderson.forget();
+            }
             self.far = step.largest > FAR_MM;
             let turned = step.largest < TURN_MM && self.follow_seams();
             let correction = (self.model.is_some() && self.threads.corrects() && self.ripe(&step))
@@ -214,8 +223,11 @@ impl<'a> Run<'a> {
                 Some(_) => {}
                 None => self.threads.follow(&self.coordinates),
             }
-            let further =
-                if advance == Advance::Trusted { self.accelerate(&before) } else { step.largest };
+            let further = if advance == Advance::Trusted && !step.is_exact() {
+                self.accelerate(&before)
+            } else {
+                step.largest
+            };
             targets = self.threads.targets(&self.coordinates);
             self.record(&targets);
             if rest.comes(rests, further) {
@@ -283,8 +295,12 @@ impl<'a> Run<'a> {
             let downhill = self.problem.downhill(&at, &model.courses, self.pull.turned());
             let motion = self.problem.answers(&model, &[&downhill]).swap_remove(0);
             let step = Step::new(motion, &downhill);
-            let shrinks = if self.last < LAGGING_MM { LAGS } else { SHRINKS };
-            if step.largest < shrinks * self.last {
+            let serves = if self.is_slow(&step) {
+                self.exact(&step, &model, &downhill)?
+            } else {
+                (step.largest < SHRINKS * self.last).then_some(step)
+            };
+            if let Some(step) = serves {
                 self.kept = true;
                 self.model = Some(model);
                 return Ok(step);
@@ -294,25 +310,44 @@ impl<'a> Run<'a> {
         self.kept = false;
         self.stale = false;
         self.pull = Pull::default();
-        let orders: &[Order] =
-            if self.far { &[Order::First] } else { &[Order::Second, Order::First] };
+        let orders: &[Order] = match (self.far, self.iterations) {
+            (true, _) => &[Order::First],
+            (false, 0) => &[Order::Convex, Order::First],
+            (false, _) => &[Order::Second, Order::Convex, Order::First],
+        };
         for &order in orders {
             self.problem.ask()?;
             let at = Place { coordinates: &self.coordinates, wanted, turning };
             let solved = self.problem.model(&at, order, &mut self.room)?;
             if let Some(Solved { model, downhill, motion }) = solved {
+                let step = Step::new(motion, &downhill);
+                let exact = if self.iterations > 0 && self.is_slow(&step) {
+                    self.exact(&step, &model, &downhill)?
+                } else {
+                    None
+                };
                 self.model = Some(Arc::new(model));
-                return Ok(Step::new(motion, &downhill));
+                return Ok(exact.unwrap_or(step));
             }
         }
         // The Gauss–Newton matrix is never negative and is held: only numbers without bounds come here.
         Err(FitError::System(SparseError::NotPositiveDefinite(0)))
     }
 
-    /// Lets the seams turn with the fabric; whether they have.
+    /// Lets the seams turn with the fabric, where an earlier fit's Hessian has other courses by what they pull, else by
+    /// a new Hessian; whether they have.
     fn follow_seams(&mut self) -> bool {
         let Some(model) = &self.model else { return false };
         let sewn = &self.problem.solver.sewn;
+        if !self.resumed {
+            let away = self.kept && self.turns > 0;
+            let turned = away && Pull::away(sewn, &self.coordinates, &model.courses);
+            if turned {
+                self.turns -= 1;
+                self.stale = true;
+            }
+            return turned;
+        }
         let turned = self.pull.follow(sewn, &self.coordinates, &model.courses);
         if turned {
             self.anderson.forget();
@@ -473,57 +508,5 @@ impl<'a> Run<'a> {
         if value(&there) < value(&self.coordinates) {
             self.coordinates = there;
         }
-    }
-
-    /// J_E without the condition that sewn edges have equal lengths, in N·mm, where there are any; and what
-    /// is left to the next fit, if there is to be one.
-    ///
-    /// # Errors
-    /// If memory runs out or the job is cancelled.
-    pub fn finish(mut self, last: bool) -> Result<(Option<f64>, Option<Kept>), FitError> {
-        if last || self.stale {
-            // Its room serves for the Hessian without seams.
-            self.forget();
-        }
-        let energy = self.energy_of_free_seams()?;
-        if last {
-            self.problem.solver.matrix.let_go();
-        }
-        Ok((energy, self.leave()))
-    }
-
-    /// What is left to the next fit.
-    pub fn leave(self) -> Option<Kept> {
-        let Self { model, problem, threads, pull, below, .. } = self;
-        model.map(|model| Kept {
-            model,
-            springs: problem.springs,
-            upright: problem.upright().to_vec(),
-            answers: threads.into_answers(),
-            tensions: pull.into_tensions(),
-            coarse: below,
-        })
-    }
-
-    /// One Newton step after the seams are let go, which is exact to the second order in what they move.
-    fn energy_of_free_seams(&mut self) -> Result<Option<f64>, FitError> {
-        let (springs, spacing) = (self.problem.springs, self.problem.input.parameters.spacing);
-        let Solver { triangles, sewn, .. } = self.problem.solver;
-        if sewn.cliques().is_empty() {
-            return Ok(None);
-        }
-        self.problem.ask()?;
-        let wanted = self.wanted(&self.threads.targets(&self.coordinates));
-        let turning = triangles.turning(&self.coordinates, &springs, &wanted, spacing);
-        let at = Place { coordinates: &self.coordinates, wanted: &wanted, turning: &turning };
-        let Some(Solved { model, motion, .. }) = self.problem.unsewn(&at, &mut self.room)? else {
-            return Ok(None);
-        };
-        let here = triangles.energy(&self.coordinates, &springs, &wanted, &[]);
-        self.problem.solver.matrix.take_back(model.into_factor());
-        let length = triangles.longest_step(&self.coordinates, &motion);
-        let there: Vec<DVec2> =
-            self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + length * d).collect();
-        Ok(Some(here.min(triangles.energy(&there, &springs, &wanted, &[]))))
     }
 }

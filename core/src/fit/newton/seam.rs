@@ -250,6 +250,11 @@ impl Pull {
         turned
     }
 
+    /// Whether the seams run along other courses than those of a Hessian that is to be kept.
+    pub fn away(sewn: &Sewn, coordinates: &[DVec2], courses: &Courses) -> bool {
+        sewn.courses(coordinates).differ(courses) > TURNED
+    }
+
     /// A step is made: these are the tensions that it leaves.
     pub fn left(&mut self, tensions: Vec<f64>) {
         self.tensions = tensions;

@@ -16,6 +16,9 @@ pub struct Step {
     pub largest: f64,
     /// Derivative of the energy along it, in N·mm.
     pub slope: f64,
+    /// Largest movement of a vertex by the step that the Hessian at hand makes, in mm: that of this one, unless it
+    /// was made exact.
+    pub rough: f64,
 }
 
 impl Step {
@@ -27,7 +30,12 @@ impl Step {
             .map(|(m, d)| m.x * d[0] + m.y * d[1])
             .sum::<f64>();
         let largest = motion.iter().map(|m| m.length()).fold(0.0, f64::max);
-        Self { motion, largest, slope }
+        Self { motion, largest, slope, rough: largest }
+    }
+
+    /// Whether it was made exact.
+    pub fn is_exact(&self) -> bool {
+        self.rough != self.largest
     }
 }
 

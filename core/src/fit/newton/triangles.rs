@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 pub use self::relax::Forces;
 use super::element::{
-    Gradients, Order, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
+    Gradients, NEGATIVE, Order, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
 };
 use super::straight::{Directions, Means};
 use crate::fit::Misfit;
@@ -258,8 +258,10 @@ impl Triangles {
                 let [warp, weft] = turning.stiffness;
                 bend.turn(true, turning.warp, FELT * warp);
                 bend.turn(false, turning.weft, FELT * weft);
-                if order == Order::Second {
-                    bend.make_convex();
+                match order {
+                    Order::First => {}
+                    Order::Second => bend.leave_negative(NEGATIVE),
+                    Order::Convex => bend.leave_negative(0.0),
                 }
                 bend.at_corners(&worn.hats, worn.area)
             })

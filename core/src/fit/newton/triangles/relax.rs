@@ -118,7 +118,7 @@ impl Triangles {
             let (g, y) = Self::gradients(worn, coordinates);
             let wanted = wanted.at(y);
             let mut slope = slope(&g, springs, &wanted);
-            let mut bend = bend(&g, springs, &wanted, Order::Second);
+            let mut bend = bend(&g, springs, &wanted, Order::Convex);
             for (of_y, along, s) in [
                 (true, turning.warp, turning.stiffness[0]),
                 (false, turning.weft, turning.stiffness[1]),
@@ -126,7 +126,7 @@ impl Triangles {
                 turn(&mut slope, &g, of_y, along, s);
                 bend.turn(of_y, along, s);
             }
-            bend.make_convex();
+            bend.leave_negative(0.0);
             let of_corners = force_at_corners(&slope, &worn.hats, worn.area);
             force += DVec2::new(of_corners[2 * k], of_corners[2 * k + 1]);
             let element = bend.at_corners(&worn.hats, worn.area).stiffness;

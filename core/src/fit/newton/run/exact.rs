@@ -1,0 +1,112 @@
+//! Steps that are made exact where the Hessian at hand is much stiffer than the fabric.
+//!
+//! What is left to the forces here is to become nothing: J p = −F, with J all of what changes them, the
+//! turning springs' directions, the strain function and negative curvature included. J times a vector is a difference
+//! of forces; the factorized Hessian M makes the equations M⁻¹ J p = −M⁻¹ F, in which few directions are far from 1:
+//! those in which M is wrong. GMRES finds them. On an ankle whose lobe swings about a fold, steps by M of 0.5 mm a
+//! time had 3 mm to go; a kept Hessian's steps of 0.007 mm, within the tolerance, 0.4 mm.
+
+use glam::DVec2;
+
+use super::{KEPT_MM, Run, SHRINKS, TRUSTED_MM};
+use crate::fit::FitError;
+use crate::fit::newton::krylov::gmres;
+use crate::fit::newton::problem::{Model, Place};
+use crate::fit::newton::step::Step;
+
+/// Products of J for one step, each as long as a step by a kept Hessian.
+const PRODUCTS: usize = 15;
+
+/// The share of a step that may be left.
+const LEFT: f64 = 0.2;
+
+/// Near rest no more is left than this share of the tolerance: what is left may be of the softest directions.
+const LEFT_AT_REST: f64 = 0.2;
+
+/// Rest is near at so many times the tolerance.
+const NEAR_REST: f64 = 10.0;
+
+/// A step of which more is left is none: another Hessian is needed.
+const USELESS: f64 = 0.5;
+
+/// Forces are compared over so many mm: most of the digits are left to the difference, and no spring changes its ways.
+const DIFFERENCE_MM: f64 = 1e-4;
+
+impl Run<'_> {
+    /// Whether a step by the Hessian at hand is to be made exact: it does not shrink as it should, or
+    /// is the last of a run of such ones.
+    pub(super) fn is_slow(&self, step: &Step) -> bool {
+        let rests = step.largest < self.problem.input.parameters.newton_tolerance;
+        step.largest < KEPT_MM && (step.largest >= SHRINKS * self.last || (rests && self.slow))
+    }
+
+    /// The exact step, of at most [`KEPT_MM`]; `None` if it is not found, or does not lead down.
+    ///
+    /// # Errors
+    /// If the job is cancelled.
+    pub(super) fn exact(
+        &self,
+        step: &Step,
+        model: &Model,
+        downhill: &[f64],
+    ) -> Result<Option<Step>, FitError> {
+        let parameters = self.problem.input.parameters;
+        let product = |v: &[DVec2]| {
+            self.problem.ask().ok()?;
+            let difference = DIFFERENCE_MM / largest(v);
+            let there: Vec<DVec2> =
+                self.coordinates.iter().zip(v).map(|(&p, &v)| p + difference * v).collect();
+            let forces = self.downhill(&there, model);
+            let change: Vec<f64> = downhill
+                .iter()
+                .zip(forces)
+                .map(|(here, there)| (here - there) / difference)
+                .collect();
+            Some(self.problem.answers(model, &[&change]).swap_remove(0))
+        };
+        let rest = parameters.newton_tolerance / step.largest;
+        let left = if rest * NEAR_REST < 1.0 { LEFT } else { LEFT.min(LEFT_AT_REST * rest) };
+        let found = gmres(&step.motion, product, PRODUCTS, left);
+        self.problem.ask()?;
+        let Some(found) = found.filter(|found| found.left < USELESS) else { return Ok(None) };
+        let exact = Step::new(found.x, downhill);
+        // Where the energy falls backwards along it, its curvature is negative, and that is the way out.
+        let way = if exact.slope > 0.0 { -1.0 } else { 1.0 };
+        let length = way * (KEPT_MM / exact.largest).min(1.0);
+        let motion = exact.motion.iter().map(|&m| length * m).collect();
+        let exact = Step { rough: step.largest, ..Step::new(motion, downhill) };
+        let leads = exact.slope < 0.0 && (exact.largest < TRUSTED_MM || self.leads(&exact, step));
+        Ok(leads.then_some(exact))
+    }
+
+    /// Whether a long step lowers the energy by more than another one: where negative curvature is only a part of it
+    /// it may lead anywhere.
+    fn leads(&self, step: &Step, other: &Step) -> bool {
+        let wanted = self.wanted(&self.threads.targets(&self.coordinates));
+        let spacing = self.problem.input.parameters.spacing;
+        let triangles = &self.problem.solver.triangles;
+        let turning = triangles.turning(&self.coordinates, &self.problem.springs, &wanted, spacing);
+        let value = |step: &Step| {
+            let length = triangles.longest_step(&self.coordinates, &step.motion);
+            let there: Vec<DVec2> =
+                self.coordinates.iter().zip(&step.motion).map(|(&p, &d)| p + length * d).collect();
+            self.problem.value(&Place { coordinates: &there, wanted: &wanted, turning: &turning })
+        };
+        value(step) < value(other)
+    }
+
+    /// Minus the forces at other pattern coordinates, with all that follows the fabric.
+    fn downhill(&self, coordinates: &[DVec2], model: &Model) -> Vec<f64> {
+        let wanted = self.wanted(&self.threads.targets(coordinates));
+        let spacing = self.problem.input.parameters.spacing;
+        let triangles = &self.problem.solver.triangles;
+        let turning = triangles.turning(coordinates, &self.problem.springs, &wanted, spacing);
+        let at = Place { coordinates, wanted: &wanted, turning: &turning };
+        self.problem.downhill(&at, &model.courses, self.pull.turned())
+    }
+}
+
+/// The largest length.
+fn largest(motion: &[DVec2]) -> f64 {
+    motion.iter().map(|m| m.length()).fold(0.0, f64::max)
+}
