@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use self::exact::Exact;
 use super::anderson::Anderson;
 use super::course::NEAR_MM;
 use super::element::Order;
@@ -291,12 +292,15 @@ impl<'a> Run<'a> {
             self.forget();
         }
         let at = Place { coordinates: &self.coordinates, wanted, turning };
+        let mut astray = false;
         if let Some(model) = self.model.take() {
             let downhill = self.problem.downhill(&at, &model.courses, self.pull.turned());
             let motion = self.problem.answers(&model, &[&downhill]).swap_remove(0);
             let step = Step::new(motion, &downhill);
             let serves = if self.is_slow(&step) {
-                self.exact(&step, &model, &downhill)?
+                let exact = self.exact(&step, &model, &downhill)?;
+                astray = matches!(exact, Exact::Astray);
+                exact.found()
             } else {
                 (step.largest < SHRINKS * self.last).then_some(step)
             };
@@ -321,8 +325,9 @@ impl<'a> Run<'a> {
             let solved = self.problem.model(&at, order, &mut self.room)?;
             if let Some(Solved { model, downhill, motion }) = solved {
                 let step = Step::new(motion, &downhill);
-                let exact = if self.iterations > 0 && self.is_slow(&step) {
-                    self.exact(&step, &model, &downhill)?
+                // It would be the same by any Hessian.
+                let exact = if self.iterations > 0 && !astray && self.is_slow(&step) {
+                    self.exact(&step, &model, &downhill)?.found()
                 } else {
                     None
                 };

@@ -32,6 +32,23 @@ const USELESS: f64 = 0.5;
 /// Forces are compared over so many mm: most of the digits are left to the difference, and no spring changes its ways.
 const DIFFERENCE_MM: f64 = 1e-4;
 
+/// What came of making a step exact.
+pub(super) enum Exact {
+    /// The exact step.
+    Found(Step),
+    /// It is none that leads down.
+    Astray,
+    /// By this Hessian it is not found.
+    NotFound,
+}
+
+impl Exact {
+    /// The step, if there is one.
+    pub(super) fn found(self) -> Option<Step> {
+        if let Self::Found(step) = self { Some(step) } else { None }
+    }
+}
+
 impl Run<'_> {
     /// Whether a step by the Hessian at hand is to be made exact: it does not shrink as it should, or
     /// is the last of a run of such ones.
@@ -40,7 +57,7 @@ impl Run<'_> {
         step.largest < KEPT_MM && (step.largest >= SHRINKS * self.last || (rests && self.slow))
     }
 
-    /// The exact step, of at most [`KEPT_MM`]; `None` if it is not found, or does not lead down.
+    /// The exact step, or as much of it as leads down.
     ///
     /// # Errors
     /// If the job is cancelled.
@@ -49,7 +66,7 @@ impl Run<'_> {
         step: &Step,
         model: &Model,
         downhill: &[f64],
-    ) -> Result<Option<Step>, FitError> {
+    ) -> Result<Exact, FitError> {
         let parameters = self.problem.input.parameters;
         let product = |v: &[DVec2]| {
             self.problem.ask().ok()?;
@@ -68,15 +85,24 @@ impl Run<'_> {
         let left = if rest * NEAR_REST < 1.0 { LEFT } else { LEFT.min(LEFT_AT_REST * rest) };
         let found = gmres(&step.motion, product, PRODUCTS, left);
         self.problem.ask()?;
-        let Some(found) = found.filter(|found| found.left < USELESS) else { return Ok(None) };
+        let Some(found) = found.filter(|found| found.left < USELESS) else {
+            return Ok(Exact::NotFound);
+        };
         let exact = Step::new(found.x, downhill);
         // Where the energy falls backwards along it, its curvature is negative, and that is the way out.
         let way = if exact.slope > 0.0 { -1.0 } else { 1.0 };
-        let length = way * (KEPT_MM / exact.largest).min(1.0);
-        let motion = exact.motion.iter().map(|&m| length * m).collect();
-        let exact = Step { rough: step.largest, ..Step::new(motion, downhill) };
-        let leads = exact.slope < 0.0 && (exact.largest < TRUSTED_MM || self.leads(&exact, step));
-        Ok(leads.then_some(exact))
+        let no_longer_than = |most: f64| {
+            let length = way * (most / exact.largest).min(1.0);
+            let motion = exact.motion.iter().map(|&m| length * m).collect();
+            Step { rough: step.largest, ..Step::new(motion, downhill) }
+        };
+        let long = no_longer_than(KEPT_MM);
+        if long.largest < TRUSTED_MM || self.leads(&long, step) {
+            return Ok(if long.slope < 0.0 { Exact::Found(long) } else { Exact::Astray });
+        }
+        // So far it may lead anywhere; a little of it is still better than the other if it is steeper.
+        let short = no_longer_than(0.99 * TRUSTED_MM);
+        Ok(if short.slope < step.slope { Exact::Found(short) } else { Exact::Astray })
     }
 
     /// Whether a long step lowers the energy by more than another one: where negative curvature is only a part of it
