@@ -14,7 +14,7 @@ use crate::fit::newton::krylov::gmres;
 use crate::fit::newton::problem::{Model, Place};
 use crate::fit::newton::step::Step;
 
-/// Products of J for one step, each as long as a step by a kept Hessian.
+/// Products of J for one step, each shorter than a step by a kept Hessian.
 const PRODUCTS: usize = 15;
 
 /// The share of a step that may be left.
@@ -81,9 +81,14 @@ impl Run<'_> {
                 .collect();
             Some(self.problem.answers(model, &[&change]).swap_remove(0))
         };
-        let rest = parameters.newton_tolerance / step.largest;
-        let left = if rest * NEAR_REST < 1.0 { LEFT } else { LEFT.min(LEFT_AT_REST * rest) };
-        let found = gmres(&step.motion, product, PRODUCTS, left);
+        let tolerance = parameters.newton_tolerance;
+        let at_rest = LEFT.min(LEFT_AT_REST * tolerance / step.largest);
+        let near = step.largest < NEAR_REST * tolerance;
+        let mut found = gmres(&step.motion, product, PRODUCTS, if near { at_rest } else { LEFT });
+        if found.as_ref().is_some_and(|f| f.left > at_rest && largest(&f.x) < tolerance) {
+            // It is rest if what is left is less still.
+            found = gmres(&step.motion, product, PRODUCTS, at_rest);
+        }
         self.problem.ask()?;
         let Some(found) = found.filter(|found| found.left < USELESS) else {
             return Ok(Exact::NotFound);
