@@ -3,7 +3,7 @@
 //!
 //! The same J_E as the woven nodes' (`element`), with nothing to insert, to remove or to interpolate:
 //! the outline is exact and the sparsity never changes. Each step takes the Gauss–Newton matrix, or near
-//! the minimum the Hessian made nearly convex by triangle (`element`), one sparse Cholesky
+//! the minimum the Hessian with a part of its negative curvature left out (`element`), one sparse Cholesky
 //! factorization (the crate's `sparse`), and a line search that never lets a
 //! triangle turn over. Sewn edges keep equal lengths (`seam`), shortened threads do not buckle
 //! (`straight`), the markers stay on one weft line as a linear constraint, and the target strains are
