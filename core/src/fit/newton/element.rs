@@ -16,9 +16,14 @@
 //! and the triangle's energy ½ A Σ k r², A its worn area. It grows without bound as d goes to 0 and as d
 //! goes to infinity, and so keeps triangles from turning over by itself. λ is a function of the
 //! triangle's mean weft coordinate c.
+//!
+//! It has an end, though, where a triangle is pressed together in the pattern; there springs stiffen (`stiffening`).
+
+mod stiffening;
 
 use glam::DVec2;
 
+pub use self::stiffening::energy as stiffening_energy;
 use super::eigen::{Square, eigen, negative, positive};
 use crate::sparse::Element;
 
@@ -83,9 +88,12 @@ impl Gradients {
     }
 }
 
-/// The four springs: stiffness, the combination α ∇x + β ∇y that they measure, and their wanted
-/// stretch with its derivative along weft.
-fn springs(k: &Springs, wanted: &Stretches) -> [(f64, f64, f64, [f64; 2]); 4] {
+/// A spring: stiffness, the combination α ∇x + β ∇y that it measures, and its wanted stretch with its
+/// derivative along weft.
+type Spring = (f64, f64, f64, [f64; 2]);
+
+/// The four springs.
+fn springs(k: &Springs, wanted: &Stretches) -> [Spring; 4] {
     let [l, l1] = wanted.warp;
     let mu = wanted.weft;
     let rho = (l * l + mu * mu).sqrt();
@@ -99,7 +107,7 @@ fn springs(k: &Springs, wanted: &Stretches) -> [(f64, f64, f64, [f64; 2]); 4] {
     ]
 }
 
-/// Energy per worn area, in N/mm; infinite where the triangle is turned over.
+/// J_E per worn area, in N/mm; infinite where the triangle is turned over.
 pub fn energy(g: &Gradients, k: &Springs, wanted: &Stretches) -> f64 {
     let d = g.determinant();
     if d.is_nan() || d <= 0.0 {
@@ -140,6 +148,9 @@ pub fn slope(g: &Gradients, k: &Springs, wanted: &Stretches) -> [f64; LOCAL] {
         slope[2] += kr * (beta * m.x - half * dd[2]);
         slope[3] += kr * (beta * m.y - half * dd[3]);
         slope[4] -= kr * length1 * root;
+        if stiffening::begins(n * by_d, length) {
+            stiffening::add_slope(&mut slope, g, &(k, alpha, beta, [length, length1]));
+        }
     }
     slope
 }
@@ -199,6 +210,9 @@ pub fn bend(g: &Gradients, k: &Springs, wanted: &Stretches, order: Order) -> Ben
             for j in 0..=i {
                 bend[i][j] += k * dr[i] * dr[j];
             }
+        }
+        if stiffening::begins(n * by_d, length) {
+            stiffening::add_bend(&mut bend, g, &(k, alpha, beta, [length, length1]), order);
         }
         if order == Order::First {
             continue;
@@ -319,7 +333,7 @@ mod tests {
 
     fn value(p: &[f64; 6]) -> f64 {
         let c = (p[1] + p[3] + p[5]) / 3.0;
-        2.5 * energy(&Gradients::new(&HATS, corners(p)), &K, &wanted(c))
+        2.5 * stiffening_energy(&Gradients::new(&HATS, corners(p)), &K, &wanted(c))
     }
 
     fn element(p: &[f64; 6], order: Order, convex: bool) -> Element {
@@ -340,17 +354,23 @@ mod tests {
 
     const AT: [f64; 6] = [0.1, 0.2, 1.9, 0.5, 0.8, 2.7];
 
+    /// Much smaller: both threads and a diagonal stiffen.
+    const STIFFENED: [f64; 6] = [0.1, 0.2, 0.9, 0.35, 0.4, 1.1];
+
     #[test]
     fn the_gradient_is_that_of_the_energy() {
-        let force = force(&AT);
-        for i in 0..6 {
-            let step = |h: f64| {
-                let mut p = AT;
-                p[i] += h;
-                value(&p)
-            };
-            let difference = (step(1e-5) - step(-1e-5)) / 2e-5;
-            assert!((force[i] - difference).abs() < 1e-8, "{i}: {} {difference}", force[i]);
+        for at in [AT, STIFFENED] {
+            let force = force(&at);
+            for i in 0..6 {
+                let step = |h: f64| {
+                    let mut p = at;
+                    p[i] += h;
+                    value(&p)
+                };
+                let difference = (step(1e-5) - step(-1e-5)) / 2e-5;
+                let off = (force[i] - difference).abs();
+                assert!(off < 1e-8 * (1.0 + difference.abs()), "{i}: {} {difference}", force[i]);
+            }
         }
     }
 
@@ -359,19 +379,22 @@ mod tests {
         let gradients = |p: &[f64; 6]| Gradients::new(&HATS, corners(p));
         let force =
             |p: &[f64; 6]| force_at_corners(&slope(&gradients(p), &K, &CONSTANT), &HATS, 2.5);
-        let stiffness =
-            bend(&gradients(&AT), &K, &CONSTANT, Order::Second).at_corners(&HATS, 2.5).stiffness;
-        let mut at = 0;
-        for row in 0..6 {
-            for column in 0..=row {
-                let step = |h: f64| {
-                    let mut p = AT;
-                    p[column] += h;
-                    force(&p)[row]
-                };
-                let difference = (step(1e-5) - step(-1e-5)) / 2e-5;
-                assert!((stiffness[at] - difference).abs() < 1e-7, "{row} {column}");
-                at += 1;
+        for place in [AT, STIFFENED] {
+            let bend = bend(&gradients(&place), &K, &CONSTANT, Order::Second);
+            let stiffness = bend.at_corners(&HATS, 2.5).stiffness;
+            let mut at = 0;
+            for row in 0..6 {
+                for column in 0..=row {
+                    let step = |h: f64| {
+                        let mut p = place;
+                        p[column] += h;
+                        force(&p)[row]
+                    };
+                    let difference = (step(1e-5) - step(-1e-5)) / 2e-5;
+                    let off = (stiffness[at] - difference).abs();
+                    assert!(off < 1e-7 * (1.0 + difference.abs()), "{row} {column}");
+                    at += 1;
+                }
             }
         }
     }

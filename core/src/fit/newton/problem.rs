@@ -115,14 +115,20 @@ impl<'a> Problem<'a> {
 
     /// Minus the gradient of it, in N, where the seams pull along `courses`, and by what is `turned`, too.
     pub fn downhill(&self, at: &Place<'_>, courses: &Courses, turned: &[f64]) -> Vec<f64> {
-        let Solver { triangles, sewn, .. } = self.solver;
-        let mut force = triangles.gradient(at.coordinates, &self.springs, at.wanted, at.turning);
+        let mut force = self.fabric(at);
+        let Solver { sewn, .. } = self.solver;
         sewn.add_forces(&mut force, at.coordinates, courses, self.input.fabric);
         force.iter_mut().zip(turned).for_each(|(force, turned)| *force += turned);
         for f in &mut force {
             *f = -*f;
         }
         force
+    }
+
+    /// The fabric's part of the gradient, in N.
+    pub fn fabric(&self, at: &Place<'_>) -> Vec<f64> {
+        let triangles = &self.solver.triangles;
+        triangles.gradient(at.coordinates, &self.springs, at.wanted, at.turning)
     }
 
     /// The Hessian to the given order, minus the gradient, and the full step; `None` if the Hessian is not

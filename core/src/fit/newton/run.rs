@@ -47,11 +47,9 @@ const FAR_MM: f64 = 10.0;
 /// After so many tenths of the steps allowed the targets are no longer corrected: the rest is for coming to rest.
 const LATE: u64 = 7;
 
-/// After a step this small, in mm, the courses of the seams are looked at that the Hessian has.
-const TURN_MM: f64 = 0.1;
-
-/// For their sake there are at most so many new Hessians.
-const TURNS: usize = 2;
+/// After a step no larger than this, in mm, the seams pull along their courses as these turn with the fabric, not along
+/// those of the Hessian.
+const FOLLOW_MM: f64 = 1.0;
 
 /// A step halved this often is no step.
 const HALVINGS: usize = 12;
@@ -85,8 +83,8 @@ pub struct Run<'a> {
     far: bool,
     /// Whether a step had to be made exact: the last ones are then to be exact, too.
     slow: bool,
-    /// How often the seams' courses may still ask for a new Hessian.
-    turns: usize,
+    /// Whether the seams pull along their courses here, while the Hessian has those of another place.
+    follows: bool,
     /// By what a target strain counts beside a coordinate in mm: what it moves the vertices.
     scale: f64,
     pull: Pull,
@@ -155,12 +153,15 @@ impl<'a> Run<'a> {
             stale: false,
             far: earlier.is_none(),
             slow: false,
-            turns: TURNS,
+            follows: false,
             scale,
             pull,
             below: None,
         };
-        run.follow_seams();
+        if let Some(model) = &run.model {
+            // Where the earlier fit has ended.
+            run.pull.follow(&run.problem.solver.sewn, &run.coordinates, &model.courses);
+        }
         if known {
             // The fabric is where the earlier targets have brought it.
             let correction = run.correction(0.5 * NEAR_MM);
@@ -187,11 +188,6 @@ impl<'a> Run<'a> {
                 parameters.spacing,
             );
             let step = self.step(&wanted, &turning)?;
-            if let Some(model) = &self.model {
-                let (Problem { solver, input, .. }, motion) = (&self.problem, &step.motion);
-                let at = &self.coordinates;
-                self.pull.left(solver.sewn.tensions(at, &model.courses, motion, input.fabric));
-            }
             let before = self.state();
             let advance = self.advance(&step, &wanted, &turning);
             let relaxed = self.relax(&step, &wanted, &turning);
@@ -202,7 +198,7 @@ impl<'a> Run<'a> {
                 self.anderson.forget();
             }
             self.far = step.largest > FAR_MM;
-            let turned = step.largest < TURN_MM && self.follow_seams();
+            self.follows |= step.largest < FOLLOW_MM;
             let correction = (self.model.is_some() && self.threads.corrects() && self.ripe(&step))
                 .then(|| self.correction(step.largest));
             let settled = correction.as_ref().map_or(!self.threads.corrects(), |c| c.settled);
@@ -218,7 +214,7 @@ impl<'a> Run<'a> {
                 self.last = f64::INFINITY;
             }
             let moved = step.largest.max(relaxed);
-            let rests = rest.within(moved) && settled && !turned;
+            let rests = rest.within(moved) && settled;
             match correction {
                 Some(correction) if !rests => self.take(&correction),
                 Some(_) => {}
@@ -294,9 +290,13 @@ impl<'a> Run<'a> {
         let at = Place { coordinates: &self.coordinates, wanted, turning };
         let mut astray = false;
         if let Some(model) = self.model.take() {
+            if self.follows {
+                self.pull.follow(&self.problem.solver.sewn, at.coordinates, &model.courses);
+            }
             let downhill = self.problem.downhill(&at, &model.courses, self.pull.turned());
             let motion = self.problem.answers(&model, &[&downhill]).swap_remove(0);
             let step = Step::new(motion, &downhill);
+            self.pull.left(self.tensions(&model, &step));
             let serves = if self.is_slow(&step) {
                 let exact = self.exact(&step, &model, &downhill)?;
                 astray = matches!(exact, Exact::Astray);
@@ -314,6 +314,7 @@ impl<'a> Run<'a> {
         self.kept = false;
         self.stale = false;
         self.pull = Pull::default();
+        self.follows = false;
         let orders: &[Order] = match (self.far, self.iterations) {
             (true, _) => &[Order::First],
             (false, 0) => &[Order::Convex, Order::First],
@@ -325,6 +326,7 @@ impl<'a> Run<'a> {
             let solved = self.problem.model(&at, order, &mut self.room)?;
             if let Some(Solved { model, downhill, motion }) = solved {
                 let step = Step::new(motion, &downhill);
+                self.pull.left(self.tensions(&model, &step));
                 // It would be the same by any Hessian.
                 let exact = if self.iterations > 0 && !astray && self.is_slow(&step) {
                     self.exact(&step, &model, &downhill)?.found()
@@ -339,25 +341,10 @@ impl<'a> Run<'a> {
         Err(FitError::System(SparseError::NotPositiveDefinite(0)))
     }
 
-    /// Lets the seams turn with the fabric, where an earlier fit's Hessian has other courses by what they pull, else by
-    /// a new Hessian; whether they have.
-    fn follow_seams(&mut self) -> bool {
-        let Some(model) = &self.model else { return false };
-        let sewn = &self.problem.solver.sewn;
-        if !self.resumed {
-            let away = self.kept && self.turns > 0;
-            let turned = away && Pull::away(sewn, &self.coordinates, &model.courses);
-            if turned {
-                self.turns -= 1;
-                self.stale = true;
-            }
-            return turned;
-        }
-        let turned = self.pull.follow(sewn, &self.coordinates, &model.courses);
-        if turned {
-            self.anderson.forget();
-        }
-        turned
+    /// The seams' tensions after a step that a Hessian makes, in N.
+    fn tensions(&self, model: &Model, step: &Step) -> Vec<f64> {
+        let Problem { solver, input, .. } = &self.problem;
+        solver.sewn.tensions(&self.coordinates, &model.courses, &step.motion, input.fabric)
     }
 
     /// Coordinates and targets as numbers that count alike.

@@ -4,9 +4,11 @@
 //! worn surface, the energy gets ½ κ (l − r)² / w. κ is so large that what remains of a mismatch of
 //! some per cent is some hundredths of a per cent. The force acts along the seam's course smoothed over
 //! [`COURSE_MM`], not along the single edges: otherwise the shorter side would lengthen by a zigzag as
-//! fine as its edges. While a Hessian is kept its courses are, too: a force across them, where a mismatch is still
-//! on its way, would move the fabric as if nothing held it. Where an earlier fit's Hessian is kept, what turns
-//! with the fabric is the tension that a small step has left.
+//! fine as its edges.
+//!
+//! While a Hessian is kept its courses are, too: a force across them, where a mismatch is still on its way, would
+//! move the fabric as if nothing held it. What turns with the fabric is the tension that the Hessian's last step has
+//! left ([`Pull`]): so the seams pull along their own courses at rest, wherever the Hessian is from.
 
 use glam::DVec2;
 
@@ -18,11 +20,10 @@ use crate::surface::Surface;
 /// wants a mismatch of 2 % to within 0.004 %.
 const STIFFNESS_MM: f64 = 25_000.0;
 
-/// Length over which a seam's direction is averaged, in mm.
-const COURSE_MM: f64 = 10.0;
-
-/// Courses have turned when a direction differs by more than this.
-const TURNED: f64 = 0.03;
+/// Length over which a seam's direction is averaged, in mm. A side that is pushed together by P, in N, folds where P is
+/// more than half of this times the fabric's shear stiffness, in N/mm: over 10 mm an ankle's did, on the way from
+/// one pressure to another.
+const COURSE_MM: f64 = 20.0;
 
 /// An edge of a seam and the one sewn to it.
 #[derive(Debug, Clone, Copy)]
@@ -113,6 +114,24 @@ impl Sewn {
         }
     }
 
+    /// Adds what a motion along courses changes of the forces, by every coordinate, in N.
+    pub fn add_change(
+        &self,
+        forces: &mut [f64],
+        motion: &[DVec2],
+        courses: &Courses,
+        fabric: &Fabric,
+    ) {
+        let rows = courses.0.iter().zip(&self.cliques);
+        for ((row, clique), stiffness) in rows.zip(self.stiffnesses(fabric)) {
+            let force = stiffness * closed(row, clique, motion);
+            for (k, v) in clique.iter().enumerate() {
+                forces[2 * v] += force * row[2 * k];
+                forces[2 * v + 1] += force * row[2 * k + 1];
+            }
+        }
+    }
+
     /// The tensions of the edges after a motion along courses, in N.
     pub fn tensions(
         &self,
@@ -125,10 +144,7 @@ impl Sewn {
         edges
             .zip(courses.0.iter().zip(&self.cliques))
             .map(|((edge, stiffness), (row, clique))| {
-                let moved = clique.iter().zip(row.chunks_exact(2));
-                let closed: f64 =
-                    moved.map(|(&v, by)| by[0] * motion[v].x + by[1] * motion[v].y).sum();
-                stiffness * (Self::mismatch(edge, coordinates) + closed)
+                stiffness * (Self::mismatch(edge, coordinates) + closed(row, clique, motion))
             })
             .collect()
     }
@@ -206,23 +222,26 @@ impl Sewn {
     }
 }
 
+/// What a motion of a clique's vertices along its course adds to l − r, in mm.
+fn closed(row: &[f64], clique: &[usize], motion: &[DVec2]) -> f64 {
+    let moved = clique.iter().zip(row.chunks_exact(2));
+    moved.map(|(&v, by)| by[0] * motion[v].x + by[1] * motion[v].y).sum()
+}
+
 /// What the seams pull while a Hessian is kept.
 #[derive(Default)]
 pub struct Pull {
-    /// Of every edge after the last step, in N.
+    /// Of every edge after the last step that a Hessian made, in N.
     tensions: Vec<f64>,
     /// What they pull along the courses as these have turned, beyond what they pull along those of the Hessian, in N;
     /// none before.
     turned: Vec<f64>,
-    /// How often the courses may still be looked at.
-    turns: usize,
 }
 
 impl Pull {
-    /// That of an earlier fit, whose Hessian is kept. Its seams are followed once: they come from so far away that a
-    /// barrel ended 0.4 mm off. Followed again and again, an ankle's seam folded.
+    /// That of an earlier fit, whose Hessian is kept.
     pub fn resumed(tensions: Vec<f64>) -> Self {
-        Self { tensions, turned: Vec::new(), turns: 1 }
+        Self { tensions, turned: Vec::new() }
     }
 
     /// The tensions, for the next fit.
@@ -235,39 +254,21 @@ impl Pull {
         &self.turned
     }
 
-    /// Lets the seams pull along their courses as they have turned with the fabric since the Hessian's; whether that
-    /// is new.
-    pub fn follow(&mut self, sewn: &Sewn, coordinates: &[DVec2], courses: &Courses) -> bool {
-        if self.turns == 0 || self.tensions.is_empty() {
-            return false;
-        }
-        let now = sewn.courses(coordinates);
-        let turned = now.differ(courses) > TURNED;
-        if turned {
+    /// Lets the seams pull along their courses at these pattern coordinates, and not along the Hessian's.
+    pub fn follow(&mut self, sewn: &Sewn, coordinates: &[DVec2], courses: &Courses) {
+        if !self.tensions.is_empty() {
+            let now = sewn.courses(coordinates);
             self.turned = sewn.turned(&now, courses, &self.tensions, coordinates.len());
-            self.turns -= 1;
         }
-        turned
     }
 
-    /// Whether the seams run along other courses than those of a Hessian that is to be kept.
-    pub fn away(sewn: &Sewn, coordinates: &[DVec2], courses: &Courses) -> bool {
-        sewn.courses(coordinates).differ(courses) > TURNED
-    }
-
-    /// A step is made: these are the tensions that it leaves.
+    /// These are the tensions that the step of the Hessian at hand leaves.
     pub fn left(&mut self, tensions: Vec<f64>) {
         self.tensions = tensions;
     }
 }
 
 impl Courses {
-    /// By how much the directions of an edge differ at most.
-    fn differ(&self, other: &Self) -> f64 {
-        let rows = self.0.iter().flatten().zip(other.0.iter().flatten());
-        rows.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-    }
-
     /// One row for each clique.
     pub fn rows(&self) -> &[Vec<f64>] {
         &self.0

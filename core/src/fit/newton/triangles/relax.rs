@@ -12,7 +12,7 @@ use rayon::prelude::*;
 
 use super::{PER_TASK, Triangles, Turning, Wanted, Worn};
 use crate::fit::newton::element::{
-    Gradients, Order, Springs, bend, energy, force_at_corners, slope, turn,
+    Gradients, Order, Springs, bend, force_at_corners, slope, stiffening_energy, turn,
 };
 
 /// Where a triangle's shape has changed by more than this share, its corners are relaxed. At 0.06 so many of a
@@ -147,7 +147,8 @@ impl Triangles {
                     let t = corner as usize / 3;
                     let worn = &self.worn[t];
                     let (g, y) = Self::gradients(worn, coordinates);
-                    worn.area * (energy(&g, springs, &wanted.at(y)) + turning[t].energy(&g))
+                    worn.area
+                        * (stiffening_energy(&g, springs, &wanted.at(y)) + turning[t].energy(&g))
                 })
                 .sum()
         };
