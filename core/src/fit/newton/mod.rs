@@ -6,7 +6,7 @@
 //! the minimum the Hessian with a part of its negative curvature left out (`element`), one sparse Cholesky
 //! factorization (the crate's `sparse`), and a line search that never lets a
 //! triangle turn over. Sewn edges keep equal lengths (`seam`), shortened threads do not buckle
-//! (`straight`), the markers stay on one weft line as a linear constraint, and the target strains are
+//! (`straight`), springs that are stretched beyond any fabric stiffen (`element::stiffening`), the markers stay on one weft line as a linear constraint, and the target strains are
 //! corrected until the pressures are met (`pressures`).
 //! The row's target strain ε(t) follows the vertices' weft coordinates as they move, and its slope is
 //! part of the derivatives; what follows in turn (the threads through the annotated points, the
@@ -19,8 +19,8 @@
 //! methods*, 2004).
 //!
 //! It ends when the full step, which is the gradient scaled by the Hessian, moves no vertex by more
-//! than `newton_tolerance` (`step`); where steps had to be made exact, the exact one. Where a fold is
-//! stretched beyond any fabric, vertices come to rest one by one on the way (`triangles::relax`).
+//! than `newton_tolerance` (`step`); where steps had to be made exact, the exact one. Where a notch is
+//! stretched so, vertices come to rest one by one on the way (`triangles::relax`).
 //!
 //! Limit: triangles never turn over, but the outline may cross itself on a limb that cannot be
 //! flattened in one piece; the pattern says where.

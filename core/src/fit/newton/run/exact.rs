@@ -3,7 +3,7 @@
 //! What is left to the forces here is to become nothing: J p = −F, with J all of what changes them, the
 //! turning springs' directions, the strain function and negative curvature included. J times a vector is a difference
 //! of the fabric's forces, with what the seams hold along the Hessian's courses; the factorized Hessian M makes the equations M⁻¹ J p = −M⁻¹ F, in which few directions are far from 1:
-//! those in which M is wrong. GMRES finds them. On an ankle whose lobe swings about a fold, steps by M of 0.5 mm a
+//! those in which M is wrong. GMRES finds them. On an ankle whose lobe swings about a notch, steps by M of 0.5 mm a
 //! time had 3 mm to go; a kept Hessian's steps of 0.007 mm, within the tolerance, 0.4 mm.
 
 use glam::DVec2;
