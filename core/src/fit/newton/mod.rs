@@ -6,8 +6,8 @@
 //! the minimum the Hessian with a part of its negative curvature left out (`element`), one sparse Cholesky
 //! factorization (the crate's `sparse`), and a line search that never lets a
 //! triangle turn over. Sewn edges keep equal lengths (`seam`), shortened threads do not buckle
-//! (`straight`), springs that are stretched beyond any fabric stiffen (`element::stiffening`), the markers stay on one weft line as a linear constraint, and the target strains are
-//! corrected until the pressures are met (`pressures`).
+//! (`straight`), springs that are stretched beyond any fabric stiffen (`element::stiffening`), the
+//! markers stay on one weft line as a linear constraint, and the target strains are corrected until the pressures are met (`pressures`).
 //! The row's target strain ε(t) follows the vertices' weft coordinates as they move, and its slope is
 //! part of the derivatives; what follows in turn (the threads through the annotated points, the
 //! directions of the turning springs) is brought up to date before every step.
