@@ -186,7 +186,12 @@ impl StrainFunction {
                 [a, first / width, second / width.powi(2), third / width.powi(3)]
             })
             .collect();
-        StrainCourse { breaks, pieces, max_strain: self.max_strain }
+        // Four cells to a piece of even length.
+        let cells = 4 * (breaks.len() - 1);
+        let first = (0..cells)
+            .map(|cell| breaks[1..].partition_point(|&b| b <= cell as f64 / cells as f64))
+            .collect();
+        StrainCourse { breaks, pieces, first, max_strain: self.max_strain }
     }
 }
 
@@ -196,6 +201,8 @@ pub struct StrainCourse {
     breaks: Vec<f64>,
     /// Coefficients of 1, s, s², s³ with s from the piece's beginning.
     pieces: Vec<[f64; 4]>,
+    /// The piece at the beginning of each of so many even cells.
+    first: Vec<usize>,
     max_strain: f64,
 }
 
@@ -205,7 +212,12 @@ impl StrainCourse {
     #[must_use]
     pub fn at(&self, t: f64) -> [f64; 2] {
         let inside = t.clamp(0.0, 1.0);
-        let k = self.breaks[1..].partition_point(|&b| b <= inside).min(self.pieces.len() - 1);
+        let last = self.pieces.len() - 1;
+        let cell = (inside * self.first.len() as f64) as usize;
+        let mut k = self.first.get(cell).map_or(last, |&k| k.min(last));
+        while k < last && self.breaks[k + 1] <= inside {
+            k += 1;
+        }
         let s = inside - self.breaks[k];
         let [a, b, c, d] = self.pieces[k];
         let value = a + s * (b + s * (c + s * d));

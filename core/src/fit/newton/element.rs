@@ -131,26 +131,34 @@ pub fn energy(g: &Gradients, k: &Springs, wanted: &Stretches) -> f64 {
 pub struct Bend([[f64; LOCAL]; LOCAL]);
 
 /// The first derivatives alone, at a triangle that is not turned over.
+///
+/// ½ k r² is ½ k (n² / d − 2 λ n + λ² d), which has a root less.
 pub fn slope(g: &Gradients, k: &Springs, wanted: &Stretches) -> [f64; LOCAL] {
     let d = g.determinant();
-    let (root, by_d) = (d.sqrt(), 1.0 / d);
-    let inverse = 1.0 / root;
-    let dd = [g.y.y, -g.y.x, -g.x.y, g.x.x];
-    let mut slope = [0.0; LOCAL];
-    for (k, alpha, beta, [length, length1]) in springs(k, wanted) {
+    let by_d = 1.0 / d;
+    let (mut of_x, mut of_y, mut of_d, mut of_c) = (DVec2::ZERO, DVec2::ZERO, 0.0, 0.0);
+    let springs = springs(k, wanted);
+    let mut stiffens = false;
+    for &(k, alpha, beta, [length, length1]) in &springs {
         let v = alpha * g.x + beta * g.y;
         let n = v.length();
-        let kr = k * (n * inverse - length * root);
-        let half = 0.5 * (n * by_d + length) * inverse;
-        let m = v / n * inverse;
-        slope[0] += kr * (alpha * m.x - half * dd[0]);
-        slope[1] += kr * (alpha * m.y - half * dd[1]);
-        slope[2] += kr * (beta * m.x - half * dd[2]);
-        slope[3] += kr * (beta * m.y - half * dd[3]);
-        slope[4] -= kr * length1 * root;
-        if stiffening::begins(n * by_d, length) {
-            stiffening::add_slope(&mut slope, g, &(k, alpha, beta, [length, length1]));
-        }
+        let pull = k * (by_d - length / n) * v;
+        of_x += alpha * pull;
+        of_y += beta * pull;
+        let stretch = n * by_d;
+        of_d += 0.5 * k * (length + stretch) * (length - stretch);
+        of_c += k * length1 * (length * d - n);
+        stiffens |= stiffening::begins(stretch, length);
+    }
+    let mut slope = [
+        of_x.x + of_d * g.y.y,
+        of_x.y - of_d * g.y.x,
+        of_y.x - of_d * g.x.y,
+        of_y.y + of_d * g.x.x,
+        of_c,
+    ];
+    if stiffens {
+        springs.iter().for_each(|spring| stiffening::add_slope(&mut slope, g, spring));
     }
     slope
 }
@@ -171,9 +179,12 @@ pub fn force_at_corners(slope: &[f64; LOCAL], hats: &[DVec2; 3], area: f64) -> [
 pub enum Order {
     /// Gauss–Newton: Σ k ∂r ∂r, never negative. Far from the minimum the rest is of no use.
     First,
-    /// All, with [`NEGATIVE`] as a part of it: mostly still positive in sum, and nearer to the truth than without.
+    /// With [`NEGATIVE`] as a part of what is negative by triangle: mostly still positive in sum, and nearer to the truth
+    /// than without.
     Second,
-    /// All but what is negative by triangle.
+    /// All: near rest that is mostly positive in sum, too.
+    Full,
+    /// Without what is negative by triangle.
     Convex,
 }
 
@@ -282,6 +293,23 @@ impl Bend {
         }
     }
 
+    /// Second derivatives by one corner's pattern coordinates (xx, xy, yy), given its hat function's gradient, times the
+    /// worn area.
+    pub fn at_corner(&self, hat: DVec2, area: f64) -> [f64; 3] {
+        let [a, b] = hat.to_array();
+        let h = &self.0;
+        let x = [h[0][0] * a + h[1][0] * b, h[1][0] * a + h[1][1] * b];
+        // ∇y and c by x, and by y.
+        let yx = [h[2][0] * a + h[2][1] * b, h[3][0] * a + h[3][1] * b, h[4][0] * a + h[4][1] * b];
+        let yy = [
+            h[2][2] * a + h[3][2] * b + h[4][2] * THIRD,
+            h[3][2] * a + h[3][3] * b + h[4][3] * THIRD,
+            h[4][2] * a + h[4][3] * b + h[4][4] * THIRD,
+        ];
+        let along = |[p, q, r]: [f64; 3]| p * a + q * b + r * THIRD;
+        [x[0] * a + x[1] * b, along(yx), along(yy)].map(|h| area * h)
+    }
+
     /// Second derivatives by the corners' pattern coordinates, times the worn area.
     pub fn at_corners(&self, hats: &[DVec2; 3], area: f64) -> Element {
         let h = |i: usize, j: usize| if i >= j { self.0[i][j] } else { self.0[j][i] };
@@ -382,6 +410,14 @@ mod tests {
         for place in [AT, STIFFENED] {
             let bend = bend(&gradients(&place), &K, &CONSTANT, Order::Second);
             let stiffness = bend.at_corners(&HATS, 2.5).stiffness;
+            for (k, hat) in HATS.into_iter().enumerate() {
+                let entry = |row: usize, column: usize| stiffness[row * (row + 1) / 2 + column];
+                let (x, y) = (2 * k, 2 * k + 1);
+                let at_corner = [entry(x, x), entry(y, x), entry(y, y)];
+                for (one, all) in bend.at_corner(hat, 2.5).into_iter().zip(at_corner) {
+                    assert!((one - all).abs() < 1e-12, "{one} {all}");
+                }
+            }
             let mut at = 0;
             for row in 0..6 {
                 for column in 0..=row {

@@ -1,5 +1,6 @@
 //! The course of a fit: steps until nothing moves any more and the pressures are met.
 
+mod correct;
 mod exact;
 mod finish;
 
@@ -11,7 +12,7 @@ use self::exact::Exact;
 use super::anderson::Anderson;
 use super::course::NEAR_MM;
 use super::element::Order;
-use super::pressures::{Correction, Threads};
+use super::pressures::Threads;
 use super::problem::{Model, Place, Problem, Room, Solved};
 use super::seam::Pull;
 use super::step::{Rest, Step};
@@ -21,14 +22,6 @@ use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
 use crate::pressure::Targets;
 use crate::progress::{Progress, Stage};
 use crate::sparse::SparseError;
-
-/// Targets are corrected when a step moves no vertex by more than [`NEAR_MM`], or promises less than this
-/// share of the energy: then most of what is left is local, and a whole thread's strain hardly changes.
-const NEAR_ENERGY: f64 = 0.02;
-
-/// They are corrected for the first time after a step that moves no vertex by more than this, in mm: the
-/// fabric is then still on its way, and goes to another place at no cost.
-const FIRST_MM: f64 = 35.0;
 
 /// Steps that move no vertex by more than this are taken as they are: what follows the fabric (threads,
 /// turning springs, a seam's course) makes the energy an uncertain judge of them.
@@ -50,6 +43,13 @@ const LATE: u64 = 7;
 /// After a step no larger than this, in mm, the seams pull along their courses as these turn with the fabric, not along
 /// those of the Hessian.
 const FOLLOW_MM: f64 = 1.0;
+
+/// Where a vertex has moved so far since the Hessian was taken, in mm, and its steps shrink slowly, another is taken
+/// before a step is made exact: what is near rest needs fewer products, and the seams have turned.
+const AWAY_MM: f64 = 2.0;
+
+/// An exact step leaves less than this share of itself to go: rest is where that is within the tolerance.
+const LEAVES: f64 = 0.5;
 
 /// A step halved this often is no step.
 const HALVINGS: usize = 12;
@@ -213,8 +213,8 @@ impl<'a> Run<'a> {
                 self.anderson.forget();
                 self.last = f64::INFINITY;
             }
-            let moved = step.largest.max(relaxed);
-            let rests = rest.within(moved) && settled;
+            let goes_on = if step.is_exact() { LEAVES * step.largest } else { step.largest };
+            let rests = rest.within(goes_on.max(relaxed)) && settled;
             match correction {
                 Some(correction) if !rests => self.take(&correction),
                 Some(_) => {}
@@ -245,13 +245,6 @@ impl<'a> Run<'a> {
             misfit,
         };
         Ok((fit, self))
-    }
-
-    /// Whether the fabric is near enough to where it goes for the targets to be corrected.
-    fn ripe(&self, step: &Step) -> bool {
-        let energy = self.history.last().map_or(0.0, |entry| entry.misfit.energy);
-        let near = step.largest < NEAR_MM || -step.slope < NEAR_ENERGY * energy;
-        near || if self.threads.untouched() { step.largest < FIRST_MM } else { !self.stale }
     }
 
     fn wanted(&self, targets: &Targets) -> Wanted {
@@ -288,7 +281,7 @@ impl<'a> Run<'a> {
             self.forget();
         }
         let at = Place { coordinates: &self.coordinates, wanted, turning };
-        let mut astray = false;
+        let (mut astray, mut renewed) = (false, false);
         if let Some(model) = self.model.take() {
             if self.follows {
                 self.pull.follow(&self.problem.solver.sewn, at.coordinates, &model.courses);
@@ -297,7 +290,11 @@ impl<'a> Run<'a> {
             let motion = self.problem.answers(&model, &[&downhill]).swap_remove(0);
             let step = Step::new(motion, &downhill);
             self.pull.left(self.tensions(&model, &step));
-            let serves = if self.is_slow(&step) {
+            let slow = self.is_slow(&step);
+            renewed = slow && self.is_away(&model);
+            let serves = if renewed {
+                None
+            } else if slow {
                 let exact = self.exact(&step, &model, &downhill)?;
                 astray = matches!(exact, Exact::Astray);
                 exact.found()
@@ -315,10 +312,11 @@ impl<'a> Run<'a> {
         self.stale = false;
         self.pull = Pull::default();
         self.follows = false;
-        let orders: &[Order] = match (self.far, self.iterations) {
-            (true, _) => &[Order::First],
-            (false, 0) => &[Order::Convex, Order::First],
-            (false, _) => &[Order::Second, Order::Convex, Order::First],
+        let orders: &[Order] = match (renewed, self.far, self.iterations) {
+            (true, ..) => &[Order::Full, Order::Second, Order::Convex, Order::First],
+            (_, true, _) => &[Order::First],
+            (_, _, 0) => &[Order::Convex, Order::First],
+            _ => &[Order::Second, Order::Convex, Order::First],
         };
         for &order in orders {
             self.problem.ask()?;
@@ -339,6 +337,12 @@ impl<'a> Run<'a> {
         }
         // The Gauss–Newton matrix is never negative and is held: only numbers without bounds come here.
         Err(FitError::System(SparseError::NotPositiveDefinite(0)))
+    }
+
+    /// Whether a vertex is far from where it was when that Hessian was taken.
+    fn is_away(&self, model: &Model) -> bool {
+        let pairs = model.place.iter().zip(&self.coordinates);
+        pairs.map(|(then, now)| then.distance(*now)).fold(0.0, f64::max) > AWAY_MM
     }
 
     /// The seams' tensions after a step that a Hessian makes, in N.
@@ -446,59 +450,6 @@ impl<'a> Run<'a> {
         self.resumed = false;
         if let Ok(model) = Arc::try_unwrap(model) {
             self.problem.solver.matrix.take_back(model.into_factor());
-        }
-    }
-
-    /// How the targets are to be corrected here.
-    fn correction(&mut self, largest: f64) -> Correction {
-        if self.stale {
-            self.threads.forget_answers();
-        }
-        let (problem, coordinates, model) = (&self.problem, &self.coordinates, &self.model);
-        let gradient = |targets: &Targets| {
-            let wanted = Wanted::new(targets, problem.input.fabric.weft_strain);
-            problem.solver.triangles.gradient(coordinates, &problem.springs, &wanted, &[])
-        };
-        let now = self.threads.targets(coordinates);
-        self.threads.correction(coordinates, largest, |others| {
-            let Some(model) = model else { return Vec::new() };
-            if problem.ask().is_err() {
-                return Vec::new();
-            }
-            let here = gradient(&now);
-            let forces: Vec<Vec<f64>> = others
-                .iter()
-                .map(|other| here.iter().zip(gradient(other)).map(|(a, b)| a - b).collect())
-                .collect();
-            if problem.ask().is_err() {
-                return Vec::new();
-            }
-            let forces: Vec<&[f64]> = forces.iter().map(Vec::as_slice).collect();
-            problem.answers(model, &forces)
-        })
-    }
-
-    /// Corrects them.
-    fn take(&mut self, correction: &Correction) {
-        let motion = self.threads.take(correction);
-        if !correction.counts() {
-            return;
-        }
-        // The next step is not to be measured against the last.
-        self.last = f64::INFINITY;
-        let triangles = &self.problem.solver.triangles;
-        if motion.is_empty() || triangles.longest_step(&self.coordinates, &motion) < 1.0 {
-            return;
-        }
-        // The vertices go along at once, unless the answers are from a place too far away.
-        let there: Vec<DVec2> =
-            self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + d).collect();
-        let value = |coordinates: &[DVec2]| {
-            let wanted = self.wanted(&self.threads.targets(coordinates));
-            self.problem.value(&Place { coordinates, wanted: &wanted, turning: &[] })
-        };
-        if value(&there) < value(&self.coordinates) {
-            self.coordinates = there;
         }
     }
 }

@@ -43,8 +43,7 @@ impl Grid {
     /// The four points round a place and their weights.
     fn corners(&self, place: DVec2) -> [(usize, f64); 4] {
         let p = (place - self.origin) / self.step;
-        let (i, j) = (p.y.max(0.0).floor(), p.x.max(0.0).floor());
-        let (i, j) = ((i as usize).min(self.rows - 2), (j as usize).min(self.columns - 2));
+        let (i, j) = ((p.y as usize).min(self.rows - 2), (p.x as usize).min(self.columns - 2));
         let (v, u) = (p.y - i as f64, p.x - j as f64);
         let at = i * self.columns + j;
         [

@@ -260,7 +260,7 @@ impl Triangles {
                 bend.turn(true, turning.warp, FELT * warp);
                 bend.turn(false, turning.weft, FELT * weft);
                 match order {
-                    Order::First => {}
+                    Order::First | Order::Full => {}
                     Order::Second => bend.leave_negative(NEGATIVE),
                     Order::Convex => bend.leave_negative(0.0),
                 }

@@ -28,16 +28,29 @@ pub fn begins(stretch: f64, wanted: f64) -> bool {
 /// J_E with what it adds, per worn area, in N/mm; infinite where the triangle is turned over.
 pub fn energy(g: &Gradients, k: &Springs, wanted: &Stretches) -> f64 {
     let d = g.determinant();
-    let added = |&(k, alpha, beta, [length, _]): &Spring| {
-        let over = (alpha * g.x + beta * g.y).length() / d - BEGINS * length;
-        k * STIFFER / 6.0 * over.max(0.0).powi(3)
-    };
-    super::energy(g, k, wanted) + springs(k, wanted).iter().map(added).sum::<f64>()
+    if d.is_nan() || d <= 0.0 {
+        return f64::INFINITY;
+    }
+    let by_d = 1.0 / d;
+    springs(k, wanted)
+        .iter()
+        .map(|&(k, alpha, beta, [length, _])| {
+            let n = (alpha * g.x + beta * g.y).length();
+            let loose = 0.5 * k * (n - length * d).powi(2) * by_d;
+            if !begins(n * by_d, length) {
+                return loose;
+            }
+            loose + k * STIFFER / 6.0 * (n * by_d - BEGINS * length).powi(3)
+        })
+        .sum()
 }
 
 /// Adds the first derivatives of a spring that stiffens.
 pub fn add_slope(slope: &mut [f64; LOCAL], g: &Gradients, spring: &Spring) {
     let Derivatives { over, stiffness, first, .. } = Derivatives::new(g, spring);
+    if over <= 0.0 {
+        return;
+    }
     let pull = 0.5 * stiffness * over;
     slope.iter_mut().zip(first).for_each(|(slope, first)| *slope += pull * first);
 }

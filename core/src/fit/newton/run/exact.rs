@@ -12,6 +12,7 @@ use super::{KEPT_MM, Run, SHRINKS, TRUSTED_MM};
 use crate::fit::FitError;
 use crate::fit::newton::krylov::gmres;
 use crate::fit::newton::problem::{Model, Place, Problem};
+use crate::fit::newton::seam::Courses;
 use crate::fit::newton::step::Step;
 
 /// Products of J for one step, each shorter than a step by a kept Hessian.
@@ -68,8 +69,8 @@ impl Run<'_> {
         downhill: &[f64],
     ) -> Result<Exact, FitError> {
         let parameters = self.problem.input.parameters;
-        let here = self.fabric(&self.coordinates);
         let Problem { solver, input, .. } = &self.problem;
+        let here = self.fabric_of(downhill, &model.courses);
         let product = |v: &[DVec2]| {
             self.problem.ask().ok()?;
             let difference = DIFFERENCE_MM / largest(v);
@@ -124,6 +125,15 @@ impl Run<'_> {
             self.problem.value(&Place { coordinates: &there, wanted: &wanted, turning: &turning })
         };
         value(step) < value(other)
+    }
+
+    /// The fabric's part of the gradient of which `downhill` is minus all, in N.
+    fn fabric_of(&self, downhill: &[f64], courses: &Courses) -> Vec<f64> {
+        let Problem { solver, input, .. } = &self.problem;
+        let mut seams = vec![0.0; downhill.len()];
+        solver.sewn.add_forces(&mut seams, &self.coordinates, courses, input.fabric);
+        seams.iter_mut().zip(self.pull.turned()).for_each(|(force, turned)| *force += turned);
+        downhill.iter().zip(seams).map(|(downhill, seams)| -downhill - seams).collect()
     }
 
     /// The fabric's gradient at other pattern coordinates, with all that follows it, in N.

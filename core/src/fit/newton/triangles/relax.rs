@@ -4,7 +4,7 @@
 //! a step moves them by half their size. A Hessian kept from before overshoots there, and all of the fabric that
 //! hangs on the fold follows by as little as the fold lets it. So where triangles have changed much since the
 //! Hessian was taken, each vertex is moved to the rest of its own surroundings (Gauss–Seidel with Newton's steps
-//! in two unknowns, convex by triangle as in `element`), and the next step has only what is smooth to do. It
+//! in two unknowns, by the Gauss–Newton matrix where the other is not positive), and the next step has only what is smooth to do. It
 //! never raises the energy and changes nothing at the minimum.
 
 use glam::{DMat2, DVec2};
@@ -80,6 +80,11 @@ impl Triangles {
         first
     }
 
+    /// The corners at a vertex.
+    fn corners_at(&self, v: usize) -> &[u32] {
+        &self.corners[self.starts[v] as usize..self.starts[v + 1] as usize]
+    }
+
     /// The corners of triangles that have changed much, in order.
     fn changed(
         &self,
@@ -106,19 +111,24 @@ impl Triangles {
         vertices
     }
 
-    /// Moves a vertex towards rest as far as the energy falls; how far, in mm.
-    fn relax_vertex(&self, coordinates: &mut [DVec2], v: usize, forces: &Forces<'_>) -> f64 {
+    /// The gradient by a vertex's coordinates, in N, and the second derivatives to an order, in N/mm.
+    fn round_vertex(
+        &self,
+        coordinates: &[DVec2],
+        v: usize,
+        forces: &Forces<'_>,
+        order: Order,
+    ) -> (DVec2, DMat2) {
         let Forces { springs, wanted, turning } = *forces;
-        let corners = &self.corners[self.starts[v] as usize..self.starts[v + 1] as usize];
         let mut force = DVec2::ZERO;
         let mut stiffness = [0.0; 3];
-        for &corner in corners {
+        for &corner in self.corners_at(v) {
             let (t, k) = (corner as usize / 3, corner as usize % 3);
             let (worn, turning) = (&self.worn[t], &turning[t]);
             let (g, y) = Self::gradients(worn, coordinates);
             let wanted = wanted.at(y);
             let mut slope = slope(&g, springs, &wanted);
-            let mut bend = bend(&g, springs, &wanted, Order::Convex);
+            let mut bend = bend(&g, springs, &wanted, order);
             for (of_y, along, s) in [
                 (true, turning.warp, turning.stiffness[0]),
                 (false, turning.weft, turning.stiffness[1]),
@@ -126,20 +136,27 @@ impl Triangles {
                 turn(&mut slope, &g, of_y, along, s);
                 bend.turn(of_y, along, s);
             }
-            bend.leave_negative(0.0);
             let of_corners = force_at_corners(&slope, &worn.hats, worn.area);
             force += DVec2::new(of_corners[2 * k], of_corners[2 * k + 1]);
-            let element = bend.at_corners(&worn.hats, worn.area).stiffness;
-            let entry = |row: usize, column: usize| element[row * (row + 1) / 2 + column];
-            stiffness[0] += entry(2 * k, 2 * k);
-            stiffness[1] += entry(2 * k + 1, 2 * k);
-            stiffness[2] += entry(2 * k + 1, 2 * k + 1);
+            let here = bend.at_corner(worn.hats[k], worn.area);
+            stiffness.iter_mut().zip(here).for_each(|(sum, here)| *sum += here);
         }
         let [xx, xy, yy] = stiffness;
-        let step = -(DMat2::from_cols_array(&[xx, xy, xy, yy]).inverse() * force);
+        (force, DMat2::from_cols_array(&[xx, xy, xy, yy]))
+    }
+
+    /// Moves a vertex towards rest as far as the energy falls; how far, in mm.
+    fn relax_vertex(&self, coordinates: &mut [DVec2], v: usize, forces: &Forces<'_>) -> f64 {
+        let Forces { springs, wanted, turning } = *forces;
+        let (mut force, mut stiffness) = self.round_vertex(coordinates, v, forces, Order::Second);
+        if stiffness.x_axis.x <= 0.0 || stiffness.determinant() <= 0.0 {
+            (force, stiffness) = self.round_vertex(coordinates, v, forces, Order::First);
+        }
+        let step = -(stiffness.inverse() * force);
         if !step.is_finite() {
             return 0.0;
         }
+        let corners = self.corners_at(v);
         let value = |coordinates: &[DVec2]| -> f64 {
             corners
                 .iter()
