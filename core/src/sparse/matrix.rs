@@ -268,9 +268,14 @@ impl Matrix {
         for (room, len) in
             [(&mut factor, self.factors.len()), (&mut meanwhile, self.factors.room())]
         {
-            room.try_reserve_exact(len.saturating_sub(room.len()))
-                .map_err(|_| SparseError::TooLarge(AXES * self.vertices))?;
-            room.resize(len, 0.0);
+            if room.len() < len {
+                // Asked for first, since what follows ends the program where there is not enough; pages that are
+                // only asked for cost nothing until they are written, and then by all threads.
+                *room = Vec::new();
+                room.try_reserve_exact(len)
+                    .map_err(|_| SparseError::TooLarge(AXES * self.vertices))?;
+                *room = vec![0.0; len];
+            }
         }
         let positive = self.factors.factorize(values, &mut factor, &mut meanwhile, progress);
         self.spared().meanwhile = meanwhile;

@@ -48,6 +48,9 @@ const FOLLOW_MM: f64 = 1.0;
 /// before a step is made exact: what is near rest needs fewer products, and the seams have turned.
 const AWAY_MM: f64 = 2.0;
 
+/// So far where it is that of an earlier fit: the next needs room of its own.
+const AWAY_FROM_EARLIER_MM: f64 = 10.0;
+
 /// An exact step leaves less than this share of itself to go: rest is where that is within the tolerance.
 const LEAVES: f64 = 0.5;
 
@@ -342,7 +345,8 @@ impl<'a> Run<'a> {
     /// Whether a vertex is far from where it was when that Hessian was taken.
     fn is_away(&self, model: &Model) -> bool {
         let pairs = model.place.iter().zip(&self.coordinates);
-        pairs.map(|(then, now)| then.distance(*now)).fold(0.0, f64::max) > AWAY_MM
+        let away = pairs.map(|(then, now)| then.distance(*now)).fold(0.0, f64::max);
+        away > if self.resumed { AWAY_FROM_EARLIER_MM } else { AWAY_MM }
     }
 
     /// The seams' tensions after a step that a Hessian makes, in N.
