@@ -268,12 +268,16 @@ impl Matrix {
         for (room, len) in
             [(&mut factor, self.factors.len()), (&mut meanwhile, self.factors.room())]
         {
-            if room.len() < len {
-                // Asked for first, since what follows ends the program where there is not enough; pages that are
-                // only asked for cost nothing until they are written, and then by all threads.
+            if room.len() != len {
                 *room = Vec::new();
-                room.try_reserve_exact(len)
+                // Asked for first, for what follows ends the program where there is not enough. Cleared pages cost nothing
+                // until they are written, and that is done by all threads.
+                let mut asked = Vec::<f64>::new();
+                asked
+                    .try_reserve_exact(len)
                     .map_err(|_| SparseError::TooLarge(AXES * self.vertices))?;
+                // Or the compiler would take the two for nothing.
+                drop(std::hint::black_box(asked));
                 *room = vec![0.0; len];
             }
         }
