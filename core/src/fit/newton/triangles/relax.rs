@@ -4,8 +4,8 @@
 //! a step moves them by half their size. A Hessian kept from before overshoots there, and all of the fabric that
 //! hangs on the fold follows by as little as the fold lets it. So where triangles have changed much since the
 //! Hessian was taken, each vertex is moved to the rest of its own surroundings (Gauss–Seidel with Newton's steps
-//! in two unknowns, by the Gauss–Newton matrix where the other is not positive), and the next step has only what is smooth to do. It
-//! never raises the energy and changes nothing at the minimum.
+//! in two unknowns, by the Gauss–Newton matrix where the other is not positive), and the next step has only what is
+//! smooth to do. It never raises the energy and changes nothing at the minimum.
 
 use glam::{DMat2, DVec2};
 use rayon::prelude::*;
@@ -148,7 +148,7 @@ impl Triangles {
     /// Moves a vertex towards rest as far as the energy falls; how far, in mm.
     fn relax_vertex(&self, coordinates: &mut [DVec2], v: usize, forces: &Forces<'_>) -> f64 {
         let Forces { springs, wanted, turning } = *forces;
-        let (mut force, mut stiffness) = self.round_vertex(coordinates, v, forces, Order::Second);
+        let (mut force, mut stiffness) = self.round_vertex(coordinates, v, forces, Order::Full);
         if stiffness.x_axis.x <= 0.0 || stiffness.determinant() <= 0.0 {
             (force, stiffness) = self.round_vertex(coordinates, v, forces, Order::First);
         }
