@@ -1,10 +1,13 @@
 //! The whole flow, one readable line a stage, in the paper's words.
 
+mod flat;
+
 use std::cell::LazyCell;
 use std::sync::Arc;
 
 use glam::DVec2;
 
+use self::flat::Flat;
 use crate::cutting::{Mark, MarkKind, Piece, Wanted, pieces};
 use crate::denoise::{Calm, calm};
 use crate::design::Design;
@@ -16,14 +19,13 @@ use crate::fit::newton::{self, Kept, Solver};
 use crate::fit::{Fit, FitError, FitInput};
 use crate::geometry::{Curvature, Girth, Locator, Measures, guard_unit, measure};
 use crate::mapping::Mapping;
-use crate::parameterize::{Parameterization, ParameterizeError, initial, upright};
-use crate::parameters::{Method, Parameters};
+use crate::parameterize::upright;
+use crate::parameters::Parameters;
 use crate::pattern::{Pattern, free_edges, pattern};
 use crate::pressure::{Annotation, Brace, Judgement, judge};
 use crate::progress::{Progress, Stage};
 use crate::report::{Report, compose};
 use crate::seams::{CutSurface, Markers, clip, open_to_disk, place, select};
-use crate::sparse::Matrix;
 use crate::surface::{RawMesh, Scan, Surface, SurfaceOptions, Validated, validate};
 use crate::units::LengthUnit;
 use crate::warning::Warning;
@@ -173,11 +175,8 @@ impl Prepared {
         begin(progress, Stage::Parameterization)?;
         let (markers, _) = place(&cut, design.orientation)?;
         let read = Parameters { curvature_radius: radius, ..parameters.clone() };
-        let (flat, relief) = rayon::join(
-            || laid_flat(&cut, &markers, parameters, progress),
-            || Relief::new(&scan.surface, &cut.disk, &cut.seams, &read, progress),
-        );
-        let ((omega, solver), relief) = (flat?, relief.ok_or(Error::Cancelled)?);
+        let Flat { cut, omega, solver, relief } =
+            Flat::new(&scan.surface, cut, &markers, &read, progress)?;
         warnings.extend(omega.warnings);
         let measures = if whole { measures } else { measure(&region, parameters.girth_step) };
         Ok(Self {
@@ -362,30 +361,6 @@ impl Prepared {
         let coordinates = upright(&mapped, input.disk, input.markers)?;
         let rise = mean_y(&coordinates) - mean_y(&mapped);
         Ok((rest.with_coordinates(coordinates, rise), None))
-    }
-}
-
-/// The initial parameterization, and what the default fit prepares: both are solved on one matrix.
-fn laid_flat(
-    cut: &CutSurface,
-    markers: &Markers,
-    parameters: &Parameters,
-    progress: &dyn Progress,
-) -> Result<(Parameterization, Option<Solver>), Error> {
-    match parameters.method {
-        Method::Newton => {
-            let (disk, seams, equal) = (&cut.disk, &cut.seams, parameters.equal_seams);
-            let mut solver = Solver::new(disk, seams, equal)?;
-            go_on(progress)?;
-            let omega = initial(disk, solver.matrix(), &markers.points, progress)?;
-            solver.coarsen(disk, seams, &omega.coordinates, equal)?;
-            Ok((omega, Some(solver)))
-        }
-        Method::Diffusion => {
-            let matrix = Matrix::new(&cut.disk, &[]).map_err(ParameterizeError::from)?;
-            go_on(progress)?;
-            Ok((initial(&cut.disk, &matrix, &markers.points, progress)?, None))
-        }
     }
 }
 

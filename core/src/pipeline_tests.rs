@@ -50,6 +50,48 @@ fn a_changed_wish_is_solved_from_the_last_pattern() {
     }
 }
 
+#[test]
+fn an_ankles_fold_has_small_triangles_whatever_is_wished() {
+    let limb = sample("ankle", 6000, 0.0).unwrap();
+    let parameters = Parameters::default();
+    let prepare = |design| Prepared::new(&limb.mesh, design, &parameters, &Silent).unwrap();
+    let prepared = prepare(&limb.design);
+    let disk = &prepared.cut.disk;
+    // At the tip of the notch between the two halves of the instep; a tenth of all more.
+    let fold = DVec3::new(96.0, 9.0, 6.0);
+    let near = disk.half_edges().filter(|&h| disk.point(disk.from(h)).distance(fold) < 5.0);
+    let longest = near.map(|h| disk.length(h)).fold(0.0, f64::max);
+    assert!((0.5..2.0).contains(&longest), "{longest} mm");
+    let before = open_to_disk(&prepared.region, &limb.design.seams).unwrap().disk;
+    let more = disk.triangle_count() - before.triangle_count();
+    assert!((200..2000).contains(&more), "{more}");
+
+    let mut other = limb.design.clone();
+    other.pressures.truncate(2);
+    other.pressures[0].kpa *= 0.7;
+    other.fabric.weft *= 2.0;
+    assert_eq!(prepare(&other).cut.disk, *disk);
+    let solve =
+        |design: &Design, earlier| prepared.solve(design, &parameters, earlier, &Silent).unwrap();
+    let first = solve(&limb.design, None);
+    assert_eq!(first.coordinates.len(), disk.vertex_count());
+    let (again, afresh) = (solve(&other, Some(&first)), solve(&other, None));
+    assert!(again.report.fit.converged && afresh.report.fit.converged);
+    assert!(gap(&again, &first) > 0.3, "nothing changed");
+    assert!(gap(&again, &afresh) < 0.2, "{} mm", gap(&again, &afresh));
+}
+
+#[test]
+fn limbs_without_a_fold_at_an_edge_keep_their_triangles() {
+    for limb in ["elbow", "wrist"] {
+        let limb = sample(limb, 5000, 0.0).unwrap();
+        let prepared =
+            Prepared::new(&limb.mesh, &limb.design, &Parameters::default(), &Silent).unwrap();
+        let before = open_to_disk(&prepared.region, &limb.design.seams).unwrap().disk;
+        assert_eq!(prepared.cut.disk.triangle_count(), before.triangle_count());
+    }
+}
+
 /// A tube along z from radius to radius, of so many sides, rows and mm.
 fn tube([from, to]: [f64; 2], sides: usize, rows: usize, length: f64) -> RawMesh {
     revolved(|t| from + t * (to - from), sides, rows, length)

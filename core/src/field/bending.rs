@@ -27,6 +27,7 @@
 //! noise leaves bumps wider than that, which no residual shows. At an edge of the scan patches are
 //! one-sided and several times as uncertain as said.
 
+use std::ops::{Add, Mul};
 use std::sync::LazyLock;
 
 use glam::{DMat3, DVec3};
@@ -166,6 +167,39 @@ impl Bending {
             fine,
             sampling,
         })
+    }
+
+    /// The same with further places, each of them between two others.
+    pub(super) fn finer(
+        mut self,
+        places: &Places,
+        between: &[[usize; 2]],
+        parameters: &Parameters,
+        mean_edge: f64,
+    ) -> Self {
+        extend(&mut self.tensor, between);
+        extend(&mut self.normal, between);
+        for normal in &mut self.normal {
+            *normal = normal.try_normalize().unwrap_or(DVec3::Z);
+        }
+        if let Ok(fine) = &mut self.fine {
+            extend(&mut fine.tensor, between);
+            extend(&mut fine.deviation, between);
+        }
+        self.sampling =
+            Sampling::new(places, mean_edge, SPACING_SHARE * parameters.curvature_radius);
+        self
+    }
+}
+
+/// Adds what lies between two values.
+fn extend<T>(values: &mut Vec<T>, between: &[[usize; 2]])
+where
+    T: Copy + Add<Output = T> + Mul<f64, Output = T>,
+{
+    values.reserve(between.len());
+    for &[a, b] in between {
+        values.push((values[a] + values[b]) * 0.5);
     }
 }
 

@@ -38,7 +38,7 @@ use crate::design::{Fabric, PressureModel};
 use crate::parameters::Parameters;
 use crate::pressure::{LocalCurvature, pressure_kpa};
 use crate::progress::Progress;
-use crate::seams::Seam;
+use crate::seams::{Finer, Seam};
 use crate::surface::{HalfEdgeId, Surface};
 use bending::{Bending, along, mean};
 use cloth::Cloth;
@@ -76,12 +76,40 @@ impl Relief {
         progress: &dyn Progress,
     ) -> Option<Self> {
         let places = Places::new(disk, seams);
+        let mean_edge = scan.mean_edge_length();
         let bending = Bending::new(scan, &places, parameters, progress)?;
+        Self::with(disk, places, bending, mean_edge, parameters, progress)
+    }
+
+    /// The same on smaller triangles of the same cut surface: what was read is carried to the further vertices. None if
+    /// the job is cancelled.
+    #[must_use]
+    pub fn finer(
+        self,
+        finer: &Finer,
+        parameters: &Parameters,
+        progress: &dyn Progress,
+    ) -> Option<Self> {
+        let Self { places: before, bending, mean_edge, .. } = self;
+        let places = Places::new(&finer.cut.disk, &finer.cut.seams);
+        let between = places.between(before.count(), finer);
+        let bending = bending.finer(&places, &between, parameters, mean_edge);
+        Self::with(&finer.cut.disk, places, bending, mean_edge, parameters, progress)
+    }
+
+    fn with(
+        disk: &Surface,
+        places: Places,
+        bending: Bending,
+        mean_edge: f64,
+        parameters: &Parameters,
+        progress: &dyn Progress,
+    ) -> Option<Self> {
         /// The radius of the means is at least this many edges: less is a single ring of triangles.
         const LEAST_EDGES: f64 = 2.0;
         let radius = parameters.curvature_radius.max(LEAST_EDGES * disk.mean_edge_length());
         let surroundings = Surroundings::new(&places, &bending.sampling, radius, progress)?;
-        Some(Self { places, bending, surroundings, mean_edge: scan.mean_edge_length() })
+        Some(Self { places, bending, surroundings, mean_edge })
     }
 }
 

@@ -6,7 +6,7 @@
 
 use glam::DVec3;
 
-use crate::seams::Seam;
+use crate::seams::{Finer, Seam};
 use crate::surface::{Surface, VertexId};
 
 /// The places of a cut surface and which lie next to each other.
@@ -63,6 +63,15 @@ impl Places {
         }
         let neighbours = pairs.into_iter().map(|(_, b)| b).collect();
         Self { of, points, starts, neighbours }
+    }
+
+    /// Of every place after the first so many, which are those of the surface as it was, the two between which it lies.
+    pub(super) fn between(&self, before: usize, finer: &Finer) -> Vec<[usize; 2]> {
+        let mut between = vec![[0; 2]; self.count() - before];
+        for (v, ends) in finer.middles() {
+            between[self.of[v] - before] = ends.map(|end| self.of[end]);
+        }
+        between
     }
 
     pub(super) fn count(&self) -> usize {

@@ -5,9 +5,11 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 
 use super::*;
+use crate::geometry::Grading;
 use crate::geometry::shapes::{grid, noisy};
 use crate::pressure::Stretch;
 use crate::progress::Silent;
+use crate::seams::CutSurface;
 use crate::surface::VertexId;
 
 /// A worn piece of fabric: the surface, its pattern, and what is sewn.
@@ -382,6 +384,39 @@ fn on_a_fine_mesh_few_places_are_computed_and_the_others_follow() {
     }
     assert!(off < 0.06 * (range[1] - range[0]), "{off} of {range:?}");
     assert!(stated(&field).count() > 200);
+}
+
+#[test]
+fn what_was_read_is_carried_to_the_vertices_of_smaller_triangles() {
+    let worn = Worn::new([56, 20], on_tube, |s, t| DVec2::new(TAU * 45.0 * s, 100.0 * t));
+    let worn = worn.sewn([56, 20]);
+    let cut = CutSurface {
+        disk: worn.disk.clone(),
+        seams: worn.seams.clone(),
+        splits: Vec::new(),
+        ends: None,
+        warnings: Vec::new(),
+    };
+    // Beside the seam, and away from it.
+    let places = vec![on_tube(0.02, 0.5), on_tube(0.4, 0.9)];
+    let finer = Finer::new(&cut, &Grading::new(places)).unwrap();
+    let (scan, parameters) = (limb(2.5), Parameters::default());
+    let of = |disk: &Surface, seams: &[Seam]| {
+        Relief::new(&scan, disk, seams, &parameters, &Silent).unwrap()
+    };
+    let afresh = of(&finer.cut.disk, &finer.cut.seams);
+    let carried = of(&cut.disk, &cut.seams).finer(&finer, &parameters, &Silent).unwrap();
+    assert_eq!(carried.places.count(), afresh.places.count());
+    assert!(carried.places.count() > of(&cut.disk, &cut.seams).places.count() + 500);
+    assert_eq!(carried.surroundings.radius, afresh.surroundings.radius);
+    for (place, (a, b)) in carried.bending.tensor.iter().zip(&afresh.bending.tensor).enumerate() {
+        let off = (*a - *b).to_cols_array().into_iter().fold(0.0f64, |most, x| most.max(x.abs()));
+        assert!(off < 0.02 / 45.0, "{place}: {off}");
+        let turned = carried.bending.normal[place].dot(afresh.bending.normal[place]);
+        assert!(turned > 0.9999, "{place}: {turned}");
+    }
+    let [a, b] = [&carried, &afresh].map(|relief| relief.bending.fine.as_ref().ok());
+    assert_eq!(a.map(|fine| fine.tensor.len()), b.map(|fine| fine.tensor.len()));
 }
 
 #[test]

@@ -2,6 +2,7 @@
 
 mod curvature;
 mod girth;
+mod grading;
 mod location;
 #[cfg(test)]
 pub(crate) mod shapes;
@@ -13,6 +14,7 @@ pub use curvature::{
     meyer_mean_and_gaussian,
 };
 pub use girth::{Girth, Measures, UnitError, guard_unit, measure};
+pub use grading::{FINEST_MM, Grading};
 pub use location::{ExactPlaces, Locator, SurfacePoint, closest_on_triangle};
 pub use smoothing::{curvature_noise, noise, smooth};
 pub use straightest::{Walk, walk};

@@ -17,8 +17,8 @@ use crate::warning::Warning;
 /// A surface cut open to a disk, perhaps with cut-outs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CutSurface {
-    /// The disk, in mm. Its first triangles are those of the surface in their order, split where a
-    /// seam runs; a vertex cut in two keeps its index on one side.
+    /// The disk, in mm. Its triangles are those of the surface in their order, split where a seam runs and where
+    /// [`Finer`](super::Finer) splits them; a vertex cut in two keeps its index on one side.
     pub disk: Surface,
     /// What is sewn together again.
     pub seams: Vec<Seam>,

@@ -7,6 +7,7 @@ mod carve;
 mod cut;
 mod cutter;
 mod error;
+mod finer;
 mod markers;
 mod path;
 mod pieces;
@@ -23,6 +24,7 @@ mod fixtures;
 
 pub use cut::{CutSurface, Ends, open_to_disk};
 pub use error::{REACH_MM, SeamError};
+pub use finer::Finer;
 pub use markers::{Markers, place};
 pub use region::{Clipped, clip};
 pub use selection::select;

@@ -62,6 +62,9 @@ struct Spare {
     meanwhile: Vec<f64>,
 }
 
+/// Rooms are larger than they have to be by one part in so many.
+const SPARE: usize = 8;
+
 /// Corner pairs of a triangle, lower triangle row by row.
 const PAIRS: [(usize, usize); 6] = [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)];
 
@@ -268,8 +271,10 @@ impl Matrix {
         for (room, len) in
             [(&mut factor, self.factors.len()), (&mut meanwhile, self.factors.room())]
         {
-            if room.len() != len {
+            if room.len() < len {
                 *room = Vec::new();
+                // With some to spare for a surface with more vertices: what is not written is no memory.
+                let len = len + len / SPARE;
                 // Asked for first, for what follows ends the program where there is not enough. Cleared pages cost nothing
                 // until they are written, and that is done by all threads.
                 let mut asked = Vec::<f64>::new();
@@ -281,7 +286,9 @@ impl Matrix {
                 *room = vec![0.0; len];
             }
         }
-        let positive = self.factors.factorize(values, &mut factor, &mut meanwhile, progress);
+        let (own, free) = (self.factors.len(), self.factors.room());
+        let positive =
+            self.factors.factorize(values, &mut factor[..own], &mut meanwhile[..free], progress);
         self.spared().meanwhile = meanwhile;
         if positive {
             return Ok(Some(SurfaceFactor(factor)));
@@ -295,6 +302,11 @@ impl Matrix {
         self.spared().factor = factor.0;
     }
 
+    /// Takes over the room of a matrix that is no longer needed.
+    pub fn take_over(&self, other: &Self) {
+        *self.spared() = std::mem::take(&mut *other.spared());
+    }
+
     /// Keeps no room for another factorization.
     pub fn let_go(&self) {
         *self.spared() = Spare::default();
@@ -306,7 +318,7 @@ impl Matrix {
 
     /// Solutions for right-hand sides, together: reading the factor is what a solve costs.
     pub fn solve(&self, factor: &SurfaceFactor, right: &[&[f64]]) -> Vec<Vec<f64>> {
-        self.factors.solve(&factor.0, right)
+        self.factors.solve(&factor.0[..self.factors.len()], right)
     }
 }
 
@@ -371,6 +383,18 @@ mod tests {
         let x = matrix.solve(&factor, &[&right]);
         for (got, want) in x[0].iter().zip(&wanted) {
             assert!((got - want).abs() < 1e-10, "{got} {want}");
+        }
+        // The room of a smaller matrix is taken over and, where it is too small, made anew.
+        for rows in [6, 1] {
+            let surface = grid(rows, 5, false, |x, y| DVec3::new(70.0 * x, 50.0 * y, 0.0));
+            let other = Matrix::new(&surface, &[]).unwrap();
+            let mut diagonal = vec![0.0; other.entries()];
+            (0..surface.vertex_count()).for_each(|v| other.add_diagonal(&mut diagonal, v, 2.0));
+            let unused = other.factorize(&diagonal, &Silent).unwrap().unwrap();
+            other.take_back(unused);
+            matrix.take_over(&other);
+            let again = matrix.factorize(&values, &Silent).unwrap().unwrap();
+            assert_eq!(matrix.solve(&again, &[&right]), x);
         }
         // Taking more away than there is leaves no positive matrix.
         for v in 0..n {

@@ -10,7 +10,7 @@ use glam::{DMat2, DVec2, DVec3};
 use super::thinned::{Thinned, walk};
 use super::{Below, Earlier, Fit, FitError, FitInput, Solver};
 use crate::fit::Stopped;
-use crate::geometry::SurfacePoint;
+use crate::geometry::{Grading, SurfacePoint};
 use crate::parameterize::{flipped_triangles, rest_of_lengths};
 use crate::parameters::Parameters;
 use crate::pressure::{Annotation, Targets};
@@ -45,7 +45,7 @@ pub struct Start {
 }
 
 /// Asks for the end of a job that says nothing.
-struct Quiet<'a>(&'a dyn Progress);
+pub struct Quiet<'a>(pub &'a dyn Progress);
 
 impl Progress for Quiet<'_> {
     fn report(&self, _stage: Stage, _fraction: f64, _energy: Option<f64>) {}
@@ -65,16 +65,23 @@ impl Coarse {
         seams: &[Seam],
         omega: &[DVec2],
         equal_seams: bool,
+        grading: &Grading,
     ) -> Result<Option<Self>, FitError> {
         if disk.triangle_count() < LEAST_TRIANGLES {
             return Ok(None);
         }
-        let Some(thinned) = Thinned::new(disk, seams, omega, LONGER) else { return Ok(None) };
+        let Some(thinned) = Thinned::new(disk, seams, omega, LONGER, grading) else {
+            return Ok(None);
+        };
+        // Where triangles are to be small nearly everywhere, thinning leads nowhere.
+        if 2 * thinned.disk.triangle_count() > disk.triangle_count() {
+            return Ok(None);
+        }
         let rest = rest_of_lengths(thinned.lengths(disk));
         let Thinned { disk, seams, origin, .. } = &thinned;
         let mut solver = Solver::with_shapes(disk, &rest, seams, equal_seams)?;
         let omega: Vec<DVec2> = origin.iter().map(|&v| omega[v]).collect();
-        solver.coarsen(disk, seams, &omega, equal_seams)?;
+        solver.coarsen(disk, seams, &omega, equal_seams, grading)?;
         Ok(Some(Self { thinned, solver }))
     }
 

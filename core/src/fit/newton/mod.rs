@@ -30,6 +30,7 @@ mod coarse;
 mod course;
 mod eigen;
 mod element;
+mod folds;
 mod krylov;
 mod least_squares;
 mod pressures;
@@ -47,14 +48,16 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use self::coarse::Coarse;
+use self::coarse::{Coarse, Quiet};
 use self::element::Springs;
+pub use self::folds::folds;
 use self::pressures::Answers;
 use self::problem::Model;
 pub use self::run::Run;
 use self::seam::Sewn;
 use self::triangles::Triangles;
-use super::{Fit, FitError, FitInput};
+use super::{Fit, FitError, FitInput, Stopped};
+use crate::geometry::Grading;
 use crate::parameterize::{RestTriangle, rest_triangles};
 use crate::progress::Progress;
 use crate::seams::Seam;
@@ -144,9 +147,29 @@ impl Solver {
         seams: &[Seam],
         omega: &[DVec2],
         equal_seams: bool,
+        grading: &Grading,
     ) -> Result<(), FitError> {
-        self.coarse = Coarse::new(disk, seams, omega, equal_seams)?.map(Box::new);
+        self.coarse = Coarse::new(disk, seams, omega, equal_seams, grading)?.map(Box::new);
         Ok(())
+    }
+
+    /// A fit of fewer vertices carried to all of them; `None` if it leads nowhere.
+    ///
+    /// # Errors
+    /// If the job is cancelled.
+    fn draft(
+        &self,
+        input: &FitInput<'_>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Fit>, FitError> {
+        match &self.coarse {
+            Some(coarse) => Ok(coarse.start(input, None, progress)?.map(|start| start.fit)),
+            None => match self.fit(input, None, &Quiet(progress)) {
+                Ok((fit, _)) => Ok((fit.stopped == Stopped::Gradient).then_some(fit)),
+                Err(FitError::Cancelled) => Err(FitError::Cancelled),
+                Err(_) => Ok(None),
+            },
+        }
     }
 
     /// The surface's matrix, for what else is solved on it.

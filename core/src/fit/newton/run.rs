@@ -46,7 +46,7 @@ const FOLLOW_MM: f64 = 1.0;
 
 /// Where a vertex has moved so far since the Hessian was taken, in mm, and its steps shrink slowly, another is taken
 /// before a step is made exact: what is near rest needs fewer products, and the seams have turned.
-const AWAY_MM: f64 = 2.0;
+const AWAY_MM: f64 = 1.0;
 
 /// So far where it is that of an earlier fit: the next needs room of its own.
 const AWAY_FROM_EARLIER_MM: f64 = 10.0;

@@ -9,7 +9,7 @@ use super::triangles::{Forces, Wanted};
 use super::{Earlier, Solver};
 use crate::design::{Fabric, PressureModel};
 use crate::fit::{Fit, FitError, FitInput, Misfit, Stopped};
-use crate::geometry::{Locator, ShapeOperator, SurfacePoint};
+use crate::geometry::{Grading, Locator, ShapeOperator, SurfacePoint};
 use crate::parameters::Parameters;
 use crate::pressure::Annotation;
 use crate::progress::{Progress, Silent, Stage};
@@ -102,8 +102,8 @@ impl Case {
     /// One that begins on fewer vertices.
     fn coarse_to_fine(&self) -> Solver {
         let mut solver = self.solver();
-        let equal = self.parameters.equal_seams;
-        solver.coarsen(&self.disk, &self.seams, &self.omega, equal).unwrap();
+        let (equal, even) = (self.parameters.equal_seams, Grading::default());
+        solver.coarsen(&self.disk, &self.seams, &self.omega, equal, &even).unwrap();
         assert!(solver.coarse.is_some(), "{} triangles", self.disk.triangle_count());
         solver
     }
@@ -513,6 +513,17 @@ impl Progress for After {
         self.0.store(left.saturating_sub(1), Relaxed);
         left == 0
     }
+}
+
+#[test]
+fn a_surface_that_thinning_leaves_as_it_is_has_none_with_fewer_vertices() {
+    let case = barrel(42, 72, false);
+    let mut solver = case.solver();
+    // Small triangles are wanted everywhere.
+    let everywhere = Grading::new(case.disk.points().to_vec());
+    let (equal, omega) = (case.parameters.equal_seams, &case.omega);
+    solver.coarsen(&case.disk, &case.seams, omega, equal, &everywhere).unwrap();
+    assert!(solver.coarse.is_none());
 }
 
 #[test]

@@ -7,6 +7,7 @@
 use glam::{DVec2, DVec3};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
+use crate::geometry::Grading;
 use crate::seams::Seam;
 use crate::surface::{HalfEdgeId, Surface, TriangleId, VertexId};
 
@@ -30,10 +31,18 @@ pub struct Thinned {
 }
 
 impl Thinned {
-    /// A surface with edges longer by `factor`; `None` where no triangulation of fewer vertices has its shape.
-    pub fn new(disk: &Surface, seams: &[Seam], omega: &[DVec2], factor: f64) -> Option<Self> {
-        let length = factor * disk.mean_edge_length();
-        let taken = boundary_vertices(disk, seams, length);
+    /// A surface with edges longer by `factor`, or as short as `grading` wants them; `None` where no triangulation of
+    /// fewer vertices has its shape.
+    pub fn new(
+        disk: &Surface,
+        seams: &[Seam],
+        omega: &[DVec2],
+        factor: f64,
+        grading: &Grading,
+    ) -> Option<Self> {
+        let longest = factor * disk.mean_edge_length();
+        let lengths: Vec<f64> = disk.points().iter().map(|&p| grading.length(p, longest)).collect();
+        let taken = boundary_vertices(disk, seams, &lengths);
         let mut chords = Vec::new();
         for boundary in disk.boundary_loops() {
             let kept: Vec<usize> =
@@ -43,7 +52,7 @@ impl Thinned {
             }
             chords.extend((0..kept.len()).map(|k| [kept[k], kept[(k + 1) % kept.len()]]));
         }
-        let vertices = spread(disk, omega, &taken, length / SPREAD)?;
+        let vertices = spread(disk, omega, &taken, &lengths)?;
         let triangles = triangulated(&vertices, &chords, omega)?;
 
         let mut became = vec![usize::MAX; disk.vertex_count()];
@@ -95,9 +104,9 @@ impl Thinned {
     }
 }
 
-/// The boundary vertices to take: ends of seams, what is sewn together both or not at all, and others `length`
-/// apart.
-fn boundary_vertices(disk: &Surface, seams: &[Seam], length: f64) -> Vec<bool> {
+/// The boundary vertices to take: ends of seams, what is sewn together both or not at all, and others as far apart as
+/// edges are to be long there.
+fn boundary_vertices(disk: &Surface, seams: &[Seam], lengths: &[f64]) -> Vec<bool> {
     let mut taken = vec![false; disk.vertex_count()];
     let mut sewn = taken.clone();
     for seam in seams {
@@ -108,9 +117,13 @@ fn boundary_vertices(disk: &Surface, seams: &[Seam], length: f64) -> Vec<bool> {
     }
     for seam in seams {
         let mut along = 0.0;
-        let mut left = seam.left.windows(2).map(|e| disk.point(e[0]).distance(disk.point(e[1])));
+        // In edges of the lengths wanted.
+        let mut left = seam
+            .left
+            .windows(2)
+            .map(|e| disk.point(e[0]).distance(disk.point(e[1])) / lengths[e[0].index()]);
         let whole: f64 = left.clone().sum();
-        let even = whole / (whole / length).round().max(1.0);
+        let even = whole / whole.round().max(1.0);
         for (l, r) in seam.left.iter().zip(&seam.right) {
             if along >= even {
                 (taken[l.index()], taken[r.index()]) = (true, true);
@@ -133,32 +146,35 @@ fn boundary_vertices(disk: &Surface, seams: &[Seam], length: f64) -> Vec<bool> {
         let edges = &boundary.half_edges;
         // From a vertex that is taken, if there is one.
         let first = edges.iter().position(|&h| taken[disk.from(h).index()]).unwrap_or(0);
-        let mut along = length;
+        let mut along = 1.0;
         for k in 0..edges.len() {
             let h: HalfEdgeId = edges[(first + k) % edges.len()];
             let v = disk.from(h).index();
-            taken[v] |= along >= length && !sewn[v];
+            taken[v] |= along >= 1.0 && !sewn[v];
             if taken[v] {
                 along = 0.0;
             }
-            along += disk.length(h);
+            along += disk.length(h) / lengths[v];
         }
     }
     taken
 }
 
-/// The taken vertices and as many others as keep `apart` in the plane from each other, in ascending order; `None` in
-/// a plane far emptier than a limb's.
-fn spread(disk: &Surface, omega: &[DVec2], taken: &[bool], apart: f64) -> Option<Vec<usize>> {
+/// The taken vertices and as many others as keep their distance in the plane from each other, for edges of these
+/// lengths, in ascending order; `None` in a plane far emptier than a limb's.
+fn spread(disk: &Surface, omega: &[DVec2], taken: &[bool], lengths: &[f64]) -> Option<Vec<usize>> {
     /// Cells of the grid for every vertex: a map that draws some places a hundred times too large has more.
     const MOST_CELLS: usize = 100;
+    let apart = |v: usize| lengths[v] / SPREAD;
+    let farthest = lengths.iter().copied().fold(0.0, f64::max) / SPREAD;
     let low = omega.iter().copied().reduce(DVec2::min).unwrap_or_default();
     let high = omega.iter().copied().reduce(DVec2::max).unwrap_or_default();
-    let cells = ((high - low) / apart).floor().as_usizevec2().saturating_add(glam::USizeVec2::ONE);
+    let cells =
+        ((high - low) / farthest).floor().as_usizevec2().saturating_add(glam::USizeVec2::ONE);
     if cells.x.saturating_mul(cells.y) > MOST_CELLS * omega.len() {
         return None;
     }
-    let cell = |p: DVec2| ((p - low) / apart).floor().as_usizevec2();
+    let cell = |p: DVec2| ((p - low) / farthest).floor().as_usizevec2();
     // What keeps others away, and how far.
     let mut grid: Vec<Vec<(DVec2, f64)>> = vec![Vec::new(); cells.x * cells.y];
     let add = |grid: &mut Vec<Vec<(DVec2, f64)>>, p: DVec2, away: f64| {
@@ -168,7 +184,7 @@ fn spread(disk: &Surface, omega: &[DVec2], taken: &[bool], apart: f64) -> Option
     let mut vertices = Vec::new();
     for v in disk.vertex_ids().filter(|&v| disk.is_boundary_vertex(v)) {
         let v = v.index();
-        add(&mut grid, omega[v], if taken[v] { apart } else { FROM_EDGE * apart });
+        add(&mut grid, omega[v], if taken[v] { apart(v) } else { FROM_EDGE * apart(v) });
         if taken[v] {
             vertices.push(v);
         }
@@ -183,7 +199,7 @@ fn spread(disk: &Surface, omega: &[DVec2], taken: &[bool], apart: f64) -> Option
             })
         });
         if free {
-            add(&mut grid, p, apart);
+            add(&mut grid, p, apart(v.index()));
             vertices.push(v.index());
         }
     }
@@ -330,7 +346,9 @@ mod tests {
     #[test]
     fn a_tube_keeps_its_shape_and_its_seam_with_an_eighth_of_the_triangles() {
         let (disk, seam, omega) = tube(96, 48);
-        let thin = Thinned::new(&disk, std::slice::from_ref(&seam), &omega, 3.0).unwrap();
+        let thin =
+            Thinned::new(&disk, std::slice::from_ref(&seam), &omega, 3.0, &Grading::default())
+                .unwrap();
         let share = thin.disk.triangle_count() as f64 / disk.triangle_count() as f64;
         assert!((0.08..0.2).contains(&share), "{share}");
         let area = thin.disk.total_area() / disk.total_area();
@@ -354,9 +372,42 @@ mod tests {
     }
 
     #[test]
+    fn it_stays_as_fine_as_wanted_at_a_place() {
+        let (disk, seam, omega) = tube(96, 48);
+        let place = disk.point(seam.left[20]);
+        let thin = Thinned::new(
+            &disk,
+            std::slice::from_ref(&seam),
+            &omega,
+            4.0,
+            &Grading::new(vec![place]),
+        )
+        .unwrap();
+        let edges = |from: f64, to: f64| -> Vec<f64> {
+            let all = thin.disk.half_edges().map(|h| {
+                let middle =
+                    0.5 * (thin.disk.point(thin.disk.from(h)) + thin.disk.point(thin.disk.to(h)));
+                (middle.distance(place), thin.disk.length(h))
+            });
+            all.filter(|(far, _)| (from..to).contains(far)).map(|(_, length)| length).collect()
+        };
+        let mean = |edges: &[f64]| edges.iter().sum::<f64>() / edges.len() as f64;
+        let (near, far) = (edges(0.0, 8.0), edges(60.0, 200.0));
+        assert!(near.len() > 20 && far.len() > 200, "{} {}", near.len(), far.len());
+        let given = disk.mean_edge_length();
+        assert!(mean(&near) < 1.3 * given, "{} of {given}", mean(&near));
+        assert!(mean(&far) > 3.0 * given, "{} of {given}", mean(&far));
+        // On both sides of the seam.
+        let [sewn] = &thin.seams[..] else { panic!("{} seams", thin.seams.len()) };
+        for (l, r) in sewn.left.iter().zip(&sewn.right) {
+            assert!(thin.disk.point(*l).distance(thin.disk.point(*r)) < 1e-9);
+        }
+    }
+
+    #[test]
     fn every_vertex_knows_its_place_on_it() {
         let (disk, seam, omega) = tube(80, 40);
-        let thin = Thinned::new(&disk, &[seam], &omega, 3.0).unwrap();
+        let thin = Thinned::new(&disk, &[seam], &omega, 3.0, &Grading::default()).unwrap();
         let own: Vec<DVec2> = thin.origin.iter().map(|&v| omega[v]).collect();
         let mut outside = 0;
         for (v, (triangle, weights)) in thin.places.iter().enumerate() {
@@ -381,7 +432,7 @@ mod tests {
     #[test]
     fn edges_have_the_lengths_of_arcs() {
         let (disk, seam, omega) = tube(96, 48);
-        let thin = Thinned::new(&disk, &[seam], &omega, 4.0).unwrap();
+        let thin = Thinned::new(&disk, &[seam], &omega, 4.0, &Grading::default()).unwrap();
         let lengths = thin.lengths(&disk);
         let (mut chords, mut arcs, mut count) = (0.0, 0.0, 0);
         for (triangle, lengths) in thin.disk.triangles().iter().zip(lengths) {
@@ -409,14 +460,14 @@ mod tests {
         for (l, r) in seam.left.iter().zip(&seam.right) {
             omega[r.index()] = omega[l.index()];
         }
-        assert!(Thinned::new(&disk, &[seam], &omega, 3.0).is_none());
+        assert!(Thinned::new(&disk, &[seam], &omega, 3.0, &Grading::default()).is_none());
     }
 
     #[test]
     fn a_plane_drawn_without_measure_asks_for_no_memory_without_bound() {
         let (disk, seam, mut omega) = tube(48, 24);
         omega[0] = DVec2::splat(-1e9);
-        assert!(Thinned::new(&disk, &[seam], &omega, 3.0).is_none());
+        assert!(Thinned::new(&disk, &[seam], &omega, 3.0, &Grading::default()).is_none());
     }
 
     #[test]
@@ -465,7 +516,7 @@ mod tests {
         for (k, v) in seam.right.iter().enumerate() {
             omega[v.index()].x += 0.05 * k as f64;
         }
-        let thin = Thinned::new(&disk, &[seam], &omega, 3.0).unwrap();
+        let thin = Thinned::new(&disk, &[seam], &omega, 3.0, &Grading::default()).unwrap();
         assert_eq!(thin.disk.boundary_loops().len(), 2);
         assert_eq!(thin.seams[0].left[0], thin.seams[0].right[0]);
         assert!(thin.seams[0].left.len() > 4);

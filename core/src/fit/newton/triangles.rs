@@ -332,6 +332,17 @@ impl Triangles {
         shares
     }
 
+    /// The triangles of which a thread is stretched to more than so many times what is wanted.
+    pub fn overstretched(&self, coordinates: &[DVec2], wanted: &Wanted, times: f64) -> Vec<usize> {
+        let is_so = |worn: &Worn| {
+            let (g, y) = Self::gradients(worn, coordinates);
+            let [warp, weft] = g.stretches();
+            let wanted = wanted.at(y);
+            warp > times * wanted.warp[0] || weft > times * wanted.weft
+        };
+        (0..self.worn.len()).filter(|&t| is_so(&self.worn[t])).collect()
+    }
+
     /// The longest step along `motion`, up to 1, that leaves every triangle a fair share of its area.
     pub fn longest_step(&self, coordinates: &[DVec2], motion: &[DVec2]) -> f64 {
         /// Share of the way to the first collapse that a step may go.
