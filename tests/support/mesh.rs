@@ -1,5 +1,7 @@
 //! A triangle mesh as the tests see it, and how a rectangle or disk is triangulated.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use glam::DVec3;
 use wovenfit_core::surface::RawMesh;
 
@@ -48,6 +50,40 @@ impl Mesh {
     #[must_use]
     pub fn reversed(&self) -> Self {
         let triangles = self.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect();
+        Self { triangles, ..self.clone() }
+    }
+
+    /// The same vertices with the other diagonal in as many pairs of neighbours as there are, the longest edges first;
+    /// none that would leave an angle under 20 degrees.
+    #[must_use]
+    pub fn with_flipped_diagonals(&self) -> Self {
+        const LEAST_ANGLE: f64 = 0.35;
+        let mut sides: BTreeMap<[usize; 2], Vec<[usize; 4]>> = BTreeMap::new();
+        for (t, &[a, b, c]) in self.triangles.iter().enumerate() {
+            for [a, b, c] in [[a, b, c], [b, c, a], [c, a, b]] {
+                sides.entry([a.min(b), a.max(b)]).or_default().push([t, a, b, c]);
+            }
+        }
+        let mut edges: BTreeSet<[usize; 2]> = sides.keys().copied().collect();
+        let mut order: Vec<[usize; 2]> = sides.keys().copied().collect();
+        let length = |[a, b]: [usize; 2]| self.points[a].distance(self.points[b]);
+        order.sort_by(|&a, &b| length(b).total_cmp(&length(a)));
+        let least_angle = |corners: [usize; 3]| {
+            let p = corners.map(|v| self.points[v]);
+            let angle = |k: usize| (p[(k + 1) % 3] - p[k]).angle_between(p[(k + 2) % 3] - p[k]);
+            (0..3).map(angle).fold(f64::INFINITY, f64::min)
+        };
+        let mut triangles = self.triangles.clone();
+        let mut used = vec![false; triangles.len()];
+        for edge in order {
+            let [[t, a, b, c], [s, _, _, d]] = sides[&edge][..] else { continue };
+            let others = [[a, d, c], [d, b, c]];
+            let good = others.into_iter().all(|corners| least_angle(corners) >= LEAST_ANGLE);
+            if !used[t] && !used[s] && good && edges.insert([c.min(d), c.max(d)]) {
+                (used[t], used[s]) = (true, true);
+                [triangles[t], triangles[s]] = others;
+            }
+        }
         Self { triangles, ..self.clone() }
     }
 

@@ -45,21 +45,31 @@ impl Flat {
             || Relief::new(scan, &cut.disk, &cut.seams, parameters, progress),
         );
         let ((mut omega, solver, grading), relief) = (laid?, relief.ok_or(Error::Cancelled)?);
-        let finer = solver.as_ref().and_then(|_| Finer::new(&cut, &grading));
-        let (Some(finer), Some(solver)) = (finer, &solver) else {
-            return Ok(Self { cut, omega, solver, relief });
+        let Some(solver) = solver else {
+            return Ok(Self { cut, omega, solver: None, relief });
+        };
+        // Another solver, if it is needed, goes on with the room of this.
+        let another = |cut: &CutSurface, omega: &[DVec2], needed: bool| {
+            let (disk, seams, equal) = (&cut.disk, &cut.seams, parameters.equal_seams);
+            let mut another = match Solver::well_shaped(disk, seams, omega, equal)? {
+                Some(another) => another,
+                None if needed => Solver::new(disk, seams, equal)?,
+                None => return Ok(None),
+            };
+            another.matrix().take_over(solver.matrix());
+            another.coarsen(disk, seams, omega, equal, &grading)?;
+            Ok::<_, Error>(Some(another))
+        };
+        let Some(finer) = Finer::new(&cut, &grading) else {
+            let another = another(&cut, &omega.coordinates, false)?;
+            return Ok(Self { cut, omega, solver: another.or(Some(solver)), relief });
         };
         omega.coordinates = finer.extended(&omega.coordinates);
-        let cut = &finer.cut;
-        let again = || -> Result<Solver, Error> {
-            let mut again = Solver::new(&cut.disk, &cut.seams, parameters.equal_seams)?;
-            again.matrix().take_over(solver.matrix());
-            let (omega, equal) = (&omega.coordinates, parameters.equal_seams);
-            again.coarsen(&cut.disk, &cut.seams, omega, equal, &grading)?;
-            Ok(again)
-        };
-        let (again, relief) = rayon::join(again, || relief.finer(&finer, parameters, progress));
-        let (solver, relief) = (Some(again?), relief.ok_or(Error::Cancelled)?);
+        let (solver, relief) = rayon::join(
+            || another(&finer.cut, &omega.coordinates, true),
+            || relief.finer(&finer, parameters, progress),
+        );
+        let (solver, relief) = (solver?, relief.ok_or(Error::Cancelled)?);
         Ok(Self { cut: finer.cut, omega, solver, relief })
     }
 }

@@ -11,7 +11,7 @@ use super::thinned::{Thinned, walk};
 use super::{Below, Earlier, Fit, FitError, FitInput, Solver};
 use crate::fit::Stopped;
 use crate::geometry::{Grading, SurfacePoint};
-use crate::parameterize::{flipped_triangles, rest_of_lengths};
+use crate::parameterize::rest_of_lengths;
 use crate::parameters::Parameters;
 use crate::pressure::{Annotation, Targets};
 use crate::progress::{Progress, Stage};
@@ -166,9 +166,6 @@ impl Coarse {
                 }
             }
         };
-        if flipped_triangles(input.disk, &start.coordinates).next().is_some() {
-            return Ok(None);
-        }
         Ok(Some(Start { fit: start, below: Below { fit, kept: run.leave() } }))
     }
 }

@@ -19,7 +19,7 @@ use crate::surface::{Surface, TriangleId, VertexId};
 const STRETCHED: f64 = 1.3;
 
 /// Places in the folds at free edges, if a fit on fewer vertices finds any: the middles of triangles that are stretched
-/// far and hang together at corners up to a free edge.
+/// far and hang together at corners up to a free edge. The solver is that of the surface's own triangles.
 ///
 /// # Errors
 /// If the job is cancelled.

@@ -48,7 +48,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use self::coarse::{Coarse, Quiet};
+use self::coarse::{Coarse, Quiet, Start};
 use self::element::Springs;
 pub use self::folds::folds;
 use self::pressures::Answers;
@@ -57,8 +57,8 @@ pub use self::run::Run;
 use self::seam::Sewn;
 use self::triangles::Triangles;
 use super::{Fit, FitError, FitInput, Stopped};
-use crate::geometry::Grading;
-use crate::parameterize::{RestTriangle, rest_triangles};
+use crate::geometry::{Delaunay, Grading};
+use crate::parameterize::{RestTriangle, rest_of_lengths, rest_triangles};
 use crate::progress::Progress;
 use crate::seams::Seam;
 use crate::sparse::Matrix;
@@ -123,6 +123,26 @@ impl Solver {
         Self::with_shapes(disk, &rest_triangles(disk), seams, equal_seams)
     }
 
+    /// Prepares a cut surface with other triangles over its vertices where its own are badly shaped, given the initial
+    /// parameterization; `None` where none are.
+    ///
+    /// # Errors
+    /// If memory runs out.
+    pub fn well_shaped(
+        disk: &Surface,
+        seams: &[Seam],
+        omega: &[DVec2],
+        equal_seams: bool,
+    ) -> Result<Option<Self>, FitError> {
+        let Some(Delaunay { surface, lengths }) = Delaunay::new(disk, omega) else {
+            return Ok(None);
+        };
+        let rest = rest_of_lengths(lengths);
+        let mut solver = Self::with_shapes(&surface, &rest, seams, equal_seams)?;
+        solver.triangles.guard(disk);
+        Ok(Some(solver))
+    }
+
     /// Prepares a cut surface with triangles of these shapes.
     fn with_shapes(
         disk: &Surface,
@@ -153,6 +173,19 @@ impl Solver {
         Ok(())
     }
 
+    /// Where a fit of all vertices is to begin, found on fewer; `None` where that leads nowhere, or the earlier fit has
+    /// none.
+    fn start(
+        &self,
+        input: &FitInput<'_>,
+        earlier: Option<Earlier<'_>>,
+        progress: &dyn Progress,
+    ) -> Result<Option<Start>, FitError> {
+        let Some(coarse) = &self.coarse else { return Ok(None) };
+        let start = coarse.start(input, earlier, progress)?;
+        Ok(start.filter(|start| self.triangles.lie_right(&start.fit.coordinates)))
+    }
+
     /// A fit of fewer vertices carried to all of them; `None` if it leads nowhere.
     ///
     /// # Errors
@@ -163,7 +196,7 @@ impl Solver {
         progress: &dyn Progress,
     ) -> Result<Option<Fit>, FitError> {
         match &self.coarse {
-            Some(coarse) => Ok(coarse.start(input, None, progress)?.map(|start| start.fit)),
+            Some(_) => Ok(self.start(input, None, progress)?.map(|start| start.fit)),
             None => match self.fit(input, None, &Quiet(progress)) {
                 Ok((fit, _)) => Ok((fit.stopped == Stopped::Gradient).then_some(fit)),
                 Err(FitError::Cancelled) => Err(FitError::Cancelled),
@@ -189,10 +222,7 @@ impl Solver {
         earlier: Option<Earlier<'_>>,
         progress: &'a dyn Progress,
     ) -> Result<(Fit, Run<'a>), FitError> {
-        let start = match &self.coarse {
-            Some(coarse) => coarse.start(input, earlier, progress)?,
-            None => None,
-        };
+        let start = self.start(input, earlier, progress)?;
         let begun = start.as_ref().map(|start| Earlier {
             fit: &start.fit,
             kept: earlier.and_then(|earlier| earlier.kept),

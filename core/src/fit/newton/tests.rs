@@ -10,6 +10,7 @@ use super::{Earlier, Solver};
 use crate::design::{Fabric, PressureModel};
 use crate::fit::{Fit, FitError, FitInput, Misfit, Stopped};
 use crate::geometry::{Grading, Locator, ShapeOperator, SurfacePoint};
+use crate::parameterize::flipped_triangles;
 use crate::parameters::Parameters;
 use crate::pressure::Annotation;
 use crate::progress::{Progress, Silent, Stage};
@@ -358,6 +359,49 @@ fn flipped_diagonals_and_finer_triangles_give_the_same_pattern() {
     // Edges of 5.6 mm.
     let coarse = fit(28, 48, false).0;
     assert!(gap(&fine, &coarse) < 1.0, "{} mm", gap(&fine, &coarse));
+}
+
+/// A flat sheet with wishes that are not the same along weft; its triangles can lean over so far that they have angles of
+/// 135 degrees.
+fn flat(rows: usize, columns: usize, leaning: bool) -> Case {
+    let place = |s: f64, t: f64| DVec3::new(240.0 * s, 140.0 * t, 0.0);
+    let upright = sheet(rows, columns, false, place);
+    let id = |i: usize, j: usize| VertexId::new(i * (columns + 1) + j);
+    let mut triangles = Vec::new();
+    for i in 0..rows {
+        triangles.push([id(i, 0), id(i + 1, 1), id(i + 1, 0)]);
+        for j in 0..columns - 1 {
+            let [a, b, c, d] = [id(i, j), id(i, j + 1), id(i + 1, j + 2), id(i + 1, j + 1)];
+            triangles.extend([[a, b, c], [a, c, d]]);
+        }
+        triangles.push([id(i, columns - 1), id(i, columns), id(i + 1, columns)]);
+    }
+    let points = upright.points().to_vec();
+    let omega = points.iter().map(|p| p.truncate()).collect();
+    let disk = if leaning { Surface::new(points, triangles).unwrap() } else { upright };
+    let mut case = Case::new(disk, omega, [place(0.5, 1.0), place(0.5, 0.0)]);
+    case.annotations = [(0.5, 0.2, 0.02), (0.5, 0.5, 0.3), (0.5, 0.8, 0.05)]
+        .map(|(s, t, strain)| wish(&case.disk, place(s, t), DVec3::Y, strain))
+        .to_vec();
+    case
+}
+
+#[test]
+fn badly_shaped_triangles_make_way_for_others() {
+    let (good, leaning) = (flat(28, 48, false), flat(28, 48, true));
+    let shaped = |case: &Case| {
+        let equal = case.parameters.equal_seams;
+        Solver::well_shaped(&case.disk, &case.seams, &case.omega, equal).unwrap()
+    };
+    let solver = shaped(&leaning).unwrap();
+    let fit = solver.fit(&leaning.input(), None, &Silent).unwrap().0;
+    assert_eq!(fit.stopped, Stopped::Gradient);
+    assert_eq!(flipped_triangles(&leaning.disk, &fit.coordinates).count(), 0);
+    let wanted = good.placed(&good.fit());
+    let off = gap(&leaning.placed(&fit), &wanted);
+    let plain = gap(&leaning.placed(&leaning.fit()), &wanted);
+    assert!(5.0 * off < plain, "{off} mm, and {plain} by its own triangles");
+    assert!(shaped(&good).is_none(), "they are good enough");
 }
 
 #[test]
