@@ -11,6 +11,7 @@ use crate::fit::newton::{Solver, folds};
 use crate::geometry::Grading;
 use crate::parameterize::{Parameterization, ParameterizeError, initial, upright};
 use crate::parameters::{Method, Parameters};
+use crate::pattern::free_edges;
 use crate::progress::Progress;
 use crate::seams::{CutSurface, Finer, Markers, place};
 use crate::sparse::Matrix;
@@ -126,5 +127,5 @@ fn graded(
         pressure_model: PressureModel::default(),
         parameters: &Parameters { equal_seams: parameters.equal_seams, ..Parameters::default() },
     };
-    Ok(Grading::new(folds(solver, &input, &cut.seams, progress)?))
+    Ok(Grading::new(folds(solver, &input, &free_edges(cut), progress)?))
 }

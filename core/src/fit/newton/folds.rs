@@ -4,15 +4,12 @@
 //! triangles as large as a scan's make of it is too stiff by their size, and all that hangs on the fold turns with
 //! it: the lobe of an ankle of 20,000 triangles by 1.3 mm. So triangles are to be small there.
 
-use std::collections::BTreeSet;
-
 use glam::DVec3;
 
 use super::triangles::Wanted;
 use super::{FitError, FitInput, Solver};
 use crate::progress::Progress;
-use crate::seams::Seam;
-use crate::surface::{Surface, TriangleId, VertexId};
+use crate::surface::{HalfEdgeId, TriangleId, VertexId};
 
 /// A fold has a thread stretched to more than so many times what is wanted: an ankle's has, of 5,000 triangles as of
 /// 80,000, on the same 150 mm². Where few triangles draw a wrist they stretch it as far, but not up to a free edge.
@@ -26,7 +23,7 @@ const STRETCHED: f64 = 1.3;
 pub fn folds(
     solver: &Solver,
     input: &FitInput<'_>,
-    seams: &[Seam],
+    free_edges: &[HalfEdgeId],
     progress: &dyn Progress,
 ) -> Result<Vec<DVec3>, FitError> {
     let Some(fit) = solver.draft(input, progress)? else { return Ok(Vec::new()) };
@@ -35,7 +32,10 @@ pub fn folds(
     let mut stretched = solver.triangles.overstretched(&fit.coordinates, &wanted, STRETCHED);
     let corners = |t: usize| disk.triangle(TriangleId::new(t)).map(VertexId::index);
     let mut reached = vec![false; disk.vertex_count()];
-    free_vertices(disk, seams).into_iter().for_each(|v| reached[v] = true);
+    for &h in free_edges {
+        reached[disk.from(h).index()] = true;
+        reached[disk.to(h).index()] = true;
+    }
     let mut folds = Vec::new();
     loop {
         let (joined, others): (Vec<usize>, Vec<usize>) =
@@ -49,18 +49,4 @@ pub fn folds(
     }
     let middle = |t: usize| disk.corners(TriangleId::new(t)).iter().sum::<DVec3>() / 3.0;
     Ok(folds.into_iter().map(middle).collect())
-}
-
-/// The vertices on free edges.
-fn free_vertices(disk: &Surface, seams: &[Seam]) -> BTreeSet<usize> {
-    let edge = |a: VertexId, b: VertexId| [a.index().min(b.index()), a.index().max(b.index())];
-    let sides = seams.iter().flat_map(|seam| [&seam.left, &seam.right]);
-    let sewn: BTreeSet<[usize; 2]> =
-        sides.flat_map(|side| side.windows(2)).map(|ends| edge(ends[0], ends[1])).collect();
-    let edges = disk.boundary_loops().iter().flat_map(|boundary| &boundary.half_edges);
-    edges
-        .map(|&h| edge(disk.from(h), disk.to(h)))
-        .filter(|edge| !sewn.contains(edge))
-        .flatten()
-        .collect()
 }
