@@ -110,6 +110,8 @@ pub struct Prepared {
     /// What the brace covers.
     region: Surface,
     cut: Arc<CutSurface>,
+    /// Its markers, and what is to be said about them.
+    placed: (Markers, Vec<Warning>),
     /// The initial parameterization Ω.
     omega: Vec<DVec2>,
     solver: Option<Solver>,
@@ -182,6 +184,7 @@ impl Prepared {
         Ok(Self {
             scan,
             region,
+            placed: place(&cut, design.orientation)?,
             cut: Arc::new(cut),
             omega: omega.coordinates,
             solver,
@@ -236,12 +239,13 @@ impl Prepared {
         // What the scan's noise allows goes before what was asked for.
         let given = parameters;
         let parameters = &Parameters { curvature_radius: self.radius, ..parameters.clone() };
-        let cut = if design.orientation == self.design.orientation {
-            Arc::clone(&self.cut)
+        let (cut, (markers, said)) = if design.orientation == self.design.orientation {
+            (Arc::clone(&self.cut), self.placed.clone())
         } else {
-            Arc::new(with_orientation((*self.cut).clone(), design))
+            let cut = with_orientation((*self.cut).clone(), design);
+            let placed = place(&cut, design.orientation)?;
+            (Arc::new(cut), placed)
         };
-        let (markers, said) = place(&cut, design.orientation)?;
         let mut warnings = self.warnings.clone();
         warnings.extend(said);
         warnings.extend(design.warnings.iter().cloned());

@@ -79,6 +79,8 @@ pub struct Solver {
 /// the targets, and the fit on fewer vertices.
 pub struct Kept {
     model: Arc<Model>,
+    /// That without seams, if it was asked what these cost.
+    free: Option<Arc<Model>>,
     springs: Springs,
     upright: Vec<(usize, f64)>,
     answers: Option<Arc<Answers>>,

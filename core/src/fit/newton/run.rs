@@ -72,6 +72,8 @@ pub struct Run<'a> {
     history: Vec<HistoryEntry>,
     iterations: u64,
     model: Option<Arc<Model>>,
+    /// A Hessian without seams, for what these cost.
+    free: Option<Arc<Model>>,
     room: Room,
     anderson: Anderson,
     /// Largest movement of a vertex in the last step, in mm.
@@ -126,13 +128,14 @@ impl<'a> Run<'a> {
         let coordinates = turned_upright(start, input);
         let mut threads = Threads::new(input, &coordinates);
         let problem = Problem::new(solver, input, progress);
-        let mut model = None;
+        let (mut model, mut free) = (None, None);
         let mut pull = Pull::default();
         let mut known = false;
         if let Some(Earlier { fit, kept }) = earlier {
             let kept = kept.filter(|kept| problem.like(&kept.springs, &kept.upright));
             known = threads.resume(&fit.targets, kept.and_then(|kept| kept.answers.as_ref()));
             model = kept.map(|kept| Arc::clone(&kept.model));
+            free = kept.and_then(|kept| kept.free.clone());
             pull = kept.map_or_else(Pull::default, |kept| Pull::resumed(kept.tensions.clone()));
         }
         let resumed = model.is_some();
@@ -149,6 +152,7 @@ impl<'a> Run<'a> {
             iterations: 0,
             resumed,
             model,
+            free,
             room: Room::default(),
             anderson: Anderson::default(),
             last: if earlier.is_some() && !resumed { KEPT_MM } else { f64::INFINITY },

@@ -8,6 +8,7 @@ use glam::{DVec2, DVec3};
 
 use self::cases::{Case, at, barrel, flat, gap, sheet, wish};
 use super::element::Springs;
+use super::run::Run;
 use super::triangles::{Forces, Wanted};
 use super::{Earlier, Solver};
 use crate::design::{Fabric, PressureModel};
@@ -283,11 +284,19 @@ fn from_an_earlier_fit_or_afresh_it_comes_to_the_same() {
                 case.annotations[1].point = at(&case.disk, there);
             }
             let input = case.input();
-            let afresh = solver.fit(&input, None, &Silent).unwrap().0;
+            let (afresh, run) = solver.fit(&input, None, &Silent).unwrap();
             assert_eq!(afresh.stopped, Stopped::Gradient);
+            let won = |fit: &Fit, run: Run<'_>| {
+                let free = run.finish(false).unwrap().0.unwrap();
+                fit.misfit.energy - free
+            };
+            let seams_cost = won(&afresh, run);
             for kept in [None, kept.as_ref()] {
                 let earlier = Earlier { fit: &first, kept };
-                let again = solver.fit(&input, Some(earlier), &Silent).unwrap().0;
+                let (again, run) = solver.fit(&input, Some(earlier), &Silent).unwrap();
+                // Whether another Hessian tells what the seams cost, or that of the earlier fit.
+                let cost = won(&again, run);
+                assert!((cost / seams_cost - 1.0).abs() < 0.01, "{change}: {cost} {seams_cost}");
                 let off = gap(&case.placed(&again), &case.placed(&afresh));
                 // Within what two corrections may differ that end at the same pressures but for 0.1 %, and two last
                 // Hessians with their seams' courses. With those of an earlier fit it was 0.37 mm.

@@ -15,6 +15,10 @@ use crate::fit::newton::problem::{Model, Place, Problem};
 use crate::fit::newton::seam::Courses;
 use crate::fit::newton::step::Step;
 
+/// Larger steps are not made exact: so far the fabric bends on its way, and another Hessian serves better (a wrist without
+/// seams took 27 steps and not 20).
+const SLOW_MM: f64 = 2.0;
+
 /// Products of J for one step, each shorter than a step by a kept Hessian.
 const PRODUCTS: usize = 15;
 
@@ -55,7 +59,7 @@ impl Run<'_> {
     /// is the last of a run of such ones.
     pub(super) fn is_slow(&self, step: &Step) -> bool {
         let rests = step.largest < self.problem.input.parameters.newton_tolerance;
-        step.largest < KEPT_MM && (step.largest >= SHRINKS * self.last || (rests && self.slow))
+        step.largest < SLOW_MM && (step.largest >= SHRINKS * self.last || (rests && self.slow))
     }
 
     /// The exact step, or as much of it as leads down.

@@ -1,11 +1,29 @@
 //! What is asked of a run when it has ended.
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
-use super::Run;
+use super::{Run, Step};
 use crate::fit::FitError;
-use crate::fit::newton::problem::{Place, Solved};
+use crate::fit::newton::anderson::Anderson;
+use crate::fit::newton::problem::{Model, Place, Solved};
 use crate::fit::newton::{Kept, Solver};
+
+/// A step that promises less than this share of what letting go of the seams has won is the last: some hundredths of it
+/// are left then.
+const LAST_FREE: f64 = 0.2;
+
+/// After so many steps another Hessian is needed.
+const FREE_STEPS: usize = 6;
+
+/// The fabric without its seams.
+struct LetGo {
+    /// J_E, in N·mm.
+    energy: f64,
+    /// Whether it has come to rest.
+    rests: bool,
+}
 
 impl Run<'_> {
     /// Whether the pressures were met when the targets were last corrected.
@@ -25,6 +43,7 @@ impl Run<'_> {
         }
         let energy = self.energy_of_free_seams()?;
         if last {
+            self.free = None;
             self.problem.solver.matrix.let_go();
         }
         Ok((energy, self.leave()))
@@ -32,9 +51,10 @@ impl Run<'_> {
 
     /// What is left to the next fit.
     pub fn leave(self) -> Option<Kept> {
-        let Self { model, problem, threads, pull, below, .. } = self;
+        let Self { model, free, problem, threads, pull, below, .. } = self;
         model.map(|model| Kept {
             model,
+            free,
             springs: problem.springs,
             upright: problem.upright().to_vec(),
             answers: threads.into_answers(),
@@ -43,7 +63,7 @@ impl Run<'_> {
         })
     }
 
-    /// One Newton step after the seams are let go, which is exact to the second order in what they move.
+    /// J_E of the fabric at rest after its seams are let go, with the targets that it has; `None` if it has none.
     fn energy_of_free_seams(&mut self) -> Result<Option<f64>, FitError> {
         let (springs, spacing) = (self.problem.springs, self.problem.input.parameters.spacing);
         let Solver { triangles, sewn, .. } = self.problem.solver;
@@ -54,16 +74,58 @@ impl Run<'_> {
         let wanted = self.wanted(&self.threads.targets(&self.coordinates));
         let turning = triangles.turning(&self.coordinates, &springs, &wanted, spacing);
         let at = Place { coordinates: &self.coordinates, wanted: &wanted, turning: &turning };
+        if let Some(free) = &self.free {
+            let let_go = self.let_go(&at, free, self.free_step(&at, free).0)?;
+            if let_go.rests {
+                return Ok(Some(let_go.energy));
+            }
+        }
+        self.free = None;
         let Some(Solved { model, motion, .. }) = self.problem.unsewn(&at, &mut self.room)? else {
             return Ok(None);
         };
-        let energy = |coordinates: &[DVec2]| {
-            triangles.misfit(coordinates, &springs, &wanted, spacing).energy
-        };
-        self.problem.solver.matrix.take_back(model.into_factor());
-        let length = triangles.longest_step(&self.coordinates, &motion);
-        let there: Vec<DVec2> =
-            self.coordinates.iter().zip(&motion).map(|(&p, &d)| p + length * d).collect();
-        Ok(Some(energy(&self.coordinates).min(energy(&there))))
+        let let_go = self.let_go(&at, &model, motion)?;
+        self.free = Some(Arc::new(model));
+        Ok(Some(let_go.energy))
+    }
+
+    /// The step of a Hessian without seams, and what that promises of the energy, in N·mm.
+    fn free_step(&self, at: &Place<'_>, free: &Model) -> (Vec<DVec2>, f64) {
+        let force: Vec<f64> = self.problem.fabric(at).iter().map(|f| -f).collect();
+        let step = Step::new(self.problem.answers(free, &[&force]).swap_remove(0), &force);
+        let promised = -0.5 * step.slope;
+        (step.motion, promised)
+    }
+
+    /// Where steps of a Hessian without seams lead, given the first.
+    fn let_go(&self, at: &Place<'_>, free: &Model, first: Vec<DVec2>) -> Result<LetGo, FitError> {
+        let triangles = &self.problem.solver.triangles;
+        let (springs, spacing) = (&self.problem.springs, self.problem.input.parameters.spacing);
+        let energy = |plane: &[DVec2]| triangles.misfit(plane, springs, at.wanted, spacing).energy;
+        let flat =
+            |plane: &[DVec2]| -> Vec<f64> { plane.iter().flat_map(|p| p.to_array()).collect() };
+        let (mut there, mut motion) = (at.coordinates.to_vec(), first);
+        let sewn = energy(&there);
+        let mut found = LetGo { energy: sewn, rests: false };
+        let mut anderson = Anderson::default();
+        for _ in 0..FREE_STEPS {
+            let taken = anderson.step(&flat(&there), &flat(&motion));
+            motion = taken.chunks_exact(2).map(DVec2::from_slice).collect();
+            let length = triangles.longest_step(&there, &motion);
+            there.iter_mut().zip(&motion).for_each(|(p, &d)| *p += length * d);
+            let now = energy(&there);
+            if now >= found.energy {
+                break;
+            }
+            found.energy = now;
+            if found.rests {
+                break;
+            }
+            self.problem.ask()?;
+            let (next, promised) = self.free_step(&Place { coordinates: &there, ..*at }, free);
+            found.rests = promised <= LAST_FREE * (sewn - now);
+            motion = next;
+        }
+        Ok(found)
     }
 }
