@@ -87,6 +87,26 @@ impl Mesh {
         Self { triangles, ..self.clone() }
     }
 
+    /// The same surface with one more vertex in every triangle of so many, `height` beside the middle of its first
+    /// edge: a sliver each, as marching cubes leave.
+    #[must_use]
+    pub fn with_slivers(&self, every: usize, height: f64) -> Self {
+        let mut mesh = Self { points: self.points.clone(), triangles: Vec::new() };
+        for (t, &[a, b, c]) in self.triangles.iter().enumerate() {
+            if t % every != 0 {
+                mesh.triangles.push([a, b, c]);
+                continue;
+            }
+            let [p, q, r] = [a, b, c].map(|v| self.points[v]);
+            let middle = p.midpoint(q);
+            let inward = (r - middle).reject_from(q - p).normalize_or_zero();
+            let v = mesh.points.len();
+            mesh.points.push(middle + height * inward);
+            mesh.triangles.extend([[a, b, v], [b, c, v], [c, a, v]]);
+        }
+        mesh
+    }
+
     /// Both meshes side by side in one, sharing nothing.
     #[must_use]
     pub fn with(&self, other: &Self) -> Self {

@@ -6,8 +6,8 @@ use super::go_on;
 use crate::design::{Fabric, PressureModel};
 use crate::error::Error;
 use crate::field::Relief;
-use crate::fit::FitInput;
 use crate::fit::newton::{Solver, folds};
+use crate::fit::{FitError, FitInput};
 use crate::geometry::Grading;
 use crate::parameterize::{Parameterization, ParameterizeError, initial, upright};
 use crate::parameters::{Method, Parameters};
@@ -49,30 +49,35 @@ impl Flat {
         let Some(solver) = solver else {
             return Ok(Self { cut, omega, solver: None, relief });
         };
-        // Another solver, if it is needed, goes on with the room of this.
-        let another = |cut: &CutSurface, omega: &[DVec2], needed: bool| {
-            let (disk, seams, equal) = (&cut.disk, &cut.seams, parameters.equal_seams);
-            let mut another = match Solver::well_shaped(disk, seams, omega, equal)? {
-                Some(another) => another,
-                None if needed => Solver::new(disk, seams, equal)?,
-                None => return Ok(None),
-            };
-            another.matrix().take_over(solver.matrix());
-            another.coarsen(disk, seams, omega, equal, &grading)?;
-            Ok::<_, Error>(Some(another))
-        };
         let Some(finer) = Finer::new(&cut, &grading) else {
-            let another = another(&cut, &omega.coordinates, false)?;
-            return Ok(Self { cut, omega, solver: another.or(Some(solver)), relief });
+            return Ok(Self { cut, omega, solver: Some(solver), relief });
         };
         omega.coordinates = finer.extended(&omega.coordinates);
         let (solver, relief) = rayon::join(
-            || another(&finer.cut, &omega.coordinates, true),
+            || another(&finer.cut, &omega.coordinates, &solver, &grading, parameters),
             || relief.finer(&finer, parameters, progress),
         );
-        let (solver, relief) = (solver?, relief.ok_or(Error::Cancelled)?);
+        let (solver, relief) = (Some(solver?), relief.ok_or(Error::Cancelled)?);
         Ok(Self { cut: finer.cut, omega, solver, relief })
     }
+}
+
+/// What the fit of a surface with smaller triangles prepares, with the room of that of the surface as it was.
+fn another(
+    cut: &CutSurface,
+    omega: &[DVec2],
+    before: &Solver,
+    grading: &Grading,
+    parameters: &Parameters,
+) -> Result<Solver, FitError> {
+    let (disk, seams, equal) = (&cut.disk, &cut.seams, parameters.equal_seams);
+    let mut solver = match Solver::well_shaped(disk, seams, omega, equal)? {
+        Some(solver) => solver,
+        None => Solver::new(disk, seams, equal)?,
+    };
+    solver.matrix().take_over(before.matrix());
+    solver.coarsen(disk, seams, omega, equal, grading)?;
+    Ok(solver)
 }
 
 /// The initial parameterization, and what the default fit prepares: both are solved on one matrix. And how small that
@@ -89,6 +94,10 @@ fn laid(
             let mut solver = Solver::new(disk, seams, equal)?;
             go_on(progress)?;
             let omega = initial(disk, solver.matrix(), &markers.points, progress)?;
+            if let Some(shaped) = Solver::well_shaped(disk, seams, &omega.coordinates, equal)? {
+                shaped.matrix().take_over(solver.matrix());
+                solver = shaped;
+            }
             solver.coarsen(disk, seams, &omega.coordinates, equal, &Grading::default())?;
             let grading = graded(cut, &solver, &omega.coordinates, parameters, progress)?;
             Ok((omega, Some(solver), grading))

@@ -9,14 +9,14 @@ use glam::DVec3;
 use super::triangles::Wanted;
 use super::{FitError, FitInput, Solver};
 use crate::progress::Progress;
-use crate::surface::{HalfEdgeId, TriangleId, VertexId};
+use crate::surface::HalfEdgeId;
 
 /// A fold has a thread stretched to more than so many times what is wanted: an ankle's has, of 5,000 triangles as of
 /// 80,000, on the same 150 mm². Where few triangles draw a wrist they stretch it as far, but not up to a free edge.
 const STRETCHED: f64 = 1.3;
 
 /// Places in the folds at free edges, if a fit on fewer vertices finds any: the middles of triangles that are stretched
-/// far and hang together at corners up to a free edge. The solver is that of the surface's own triangles.
+/// far and hang together at corners up to a free edge.
 ///
 /// # Errors
 /// If the job is cancelled.
@@ -30,7 +30,7 @@ pub fn folds(
     let FitInput { disk, fabric, .. } = *input;
     let wanted = Wanted::new(&fit.targets, fabric.weft_strain);
     let mut stretched = solver.triangles.overstretched(&fit.coordinates, &wanted, STRETCHED);
-    let corners = |t: usize| disk.triangle(TriangleId::new(t)).map(VertexId::index);
+    let corners = |t: usize| solver.triangles.corners_of(t);
     let mut reached = vec![false; disk.vertex_count()];
     for &h in free_edges {
         reached[disk.from(h).index()] = true;
@@ -47,6 +47,6 @@ pub fn folds(
         folds.extend(joined);
         stretched = others;
     }
-    let middle = |t: usize| disk.corners(TriangleId::new(t)).iter().sum::<DVec3>() / 3.0;
+    let middle = |t: usize| corners(t).map(|v| disk.points()[v]).iter().sum::<DVec3>() / 3.0;
     Ok(folds.into_iter().map(middle).collect())
 }

@@ -141,7 +141,7 @@ impl Solver {
         };
         let rest = rest_of_lengths(lengths);
         let mut solver = Self::with_shapes(&surface, &rest, seams, equal_seams)?;
-        solver.triangles.guard(disk);
+        solver.triangles.made_way(disk);
         Ok(Some(solver))
     }
 
@@ -230,6 +230,7 @@ impl Solver {
             kept: earlier.and_then(|earlier| earlier.kept),
         });
         let (mut fit, mut run) = Run::new(self, input, begun.or(earlier), progress).settle()?;
+        run.lay_right(&mut fit);
         if let Some(start) = start {
             let Fit { history, iterations, .. } = &start.below.fit;
             fit.prepend(history.clone(), *iterations);

@@ -367,7 +367,8 @@ impl<'a> Threads<'a> {
         let misses = missed > promised;
         self.met = !misses;
         let near = largest < NEAR_MM;
-        let worse = misses && self.course.worse(missed, near);
+        // What was given up makes nothing worse.
+        let worse = !self.lost && misses && self.course.worse(missed, near);
         let changes = vec![0.0; self.bundles.len()];
         let mut correction =
             Correction { changes, settled: true, worse, lost: self.lost && misses };

@@ -209,6 +209,12 @@ impl<'a> Problem<'a> {
         &self.upright
     }
 
+    /// Vertices that are not moved by themselves: what seams hold, and what holds the markers upright.
+    pub fn held(&self) -> impl Iterator<Item = usize> + '_ {
+        let sewn = self.solver.sewn.cliques().iter().flatten().copied();
+        sewn.chain(self.upright.iter().map(|&(i, _)| i / 2))
+    }
+
     /// The row of the markers' constraint.
     fn lean(&self, vertices: usize) -> Vec<f64> {
         let mut row = vec![0.0; 2 * vertices];

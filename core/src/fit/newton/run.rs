@@ -396,13 +396,16 @@ impl<'a> Run<'a> {
     fn relax(&mut self, step: &Step, wanted: &Wanted, turning: &[Turning]) -> f64 {
         let bends = LINEAR_MM < step.largest && step.largest < KEPT_MM;
         let Some(model) = self.model.as_ref().filter(|_| bends) else { return 0.0 };
-        // Neither what seams hold nor what holds the markers upright.
         let Problem { solver, springs, input, .. } = &self.problem;
-        let sewn = solver.sewn.cliques().iter().flatten().copied();
-        let held = sewn.chain(self.problem.upright().iter().map(|&(i, _)| i / 2));
         let forces = Forces { springs, wanted, turning };
         let tolerance = input.parameters.newton_tolerance;
-        solver.triangles.relax(&mut self.coordinates, &model.place, held, &forces, tolerance)
+        solver.triangles.relax(
+            &mut self.coordinates,
+            &model.place,
+            self.problem.held(),
+            &forces,
+            tolerance,
+        )
     }
 
     /// Moves the vertices.

@@ -1,8 +1,7 @@
 //! The worn triangles as the fit needs them, and the energy's sums over them.
 
+mod lay;
 mod relax;
-
-use std::collections::BTreeSet;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -35,8 +34,8 @@ struct Worn {
 /// All of them.
 pub struct Triangles {
     worn: Vec<Worn>,
-    /// Corners of others that are not to be turned over.
-    guarded: Vec<[u32; 3]>,
+    /// Corners of the given triangles that have made way for these.
+    given: Vec<[u32; 3]>,
     /// The corners at each vertex: those of v are `corners[starts[v]..starts[v + 1]]`, in order, each as three
     /// times its triangle plus its place there.
     starts: Vec<u32>,
@@ -128,39 +127,17 @@ impl Triangles {
             corners[*at as usize] = corner as u32;
             *at += 1;
         }
-        Self { worn, guarded: Vec::new(), starts, corners }
+        Self { worn, given: Vec::new(), starts, corners }
     }
 
-    /// Sees to it that no step turns over a triangle of this surface over the same vertices, either.
-    pub fn guard(&mut self, surface: &Surface) {
-        let first_least = |corners: [u32; 3]| {
-            let [a, b, c] = corners;
-            if a < b && a < c {
-                corners
-            } else if b < c {
-                [b, c, a]
-            } else {
-                [c, a, b]
-            }
-        };
-        let own: BTreeSet<[u32; 3]> =
-            self.worn.iter().map(|worn| first_least(worn.corners)).collect();
-        let given = surface.triangles().iter().map(|t| t.map(|v| v.index() as u32));
-        self.guarded = given.filter(|&t| !own.contains(&first_least(t))).collect();
+    /// The vertices of a triangle.
+    pub fn corners_of(&self, t: usize) -> [usize; 3] {
+        self.worn[t].corners.map(|v| v as usize)
     }
 
-    /// The corners of all that are not to be turned over, in some parts.
-    fn all_corners(&self) -> impl ParallelIterator<Item = [u32; 3]> + '_ {
-        let own = self.worn.par_iter().with_min_len(PER_TASK).map(|worn| worn.corners);
-        own.chain(self.guarded.par_iter().with_min_len(PER_TASK).copied())
-    }
-
-    /// Whether all triangles lie the right way round in the plane.
-    pub fn lie_right(&self, coordinates: &[DVec2]) -> bool {
-        self.all_corners().all(|corners| {
-            let [a, b, c] = corners.map(|v| coordinates[v as usize]);
-            (b - a).perp_dot(c - a) > 0.0
-        })
+    /// The corners at a vertex.
+    fn corners_at(&self, v: usize) -> &[u32] {
+        &self.corners[self.starts[v] as usize..self.starts[v + 1] as usize]
     }
 
     fn gradients(worn: &Worn, coordinates: &[DVec2]) -> (Gradients, f64) {
@@ -383,9 +360,9 @@ impl Triangles {
     pub fn longest_step(&self, coordinates: &[DVec2], motion: &[DVec2]) -> f64 {
         /// Share of the way to the first collapse that a step may go.
         const SHORT_OF_COLLAPSE: f64 = 0.8;
-        let collapse = self.all_corners().map(|corners| {
-            let [a, b, c] = corners.map(|v| coordinates[v as usize]);
-            let [da, db, dc] = corners.map(|v| motion[v as usize]);
+        let collapse = self.worn.par_iter().with_min_len(PER_TASK).map(|worn| {
+            let [a, b, c] = worn.corners.map(|v| coordinates[v as usize]);
+            let [da, db, dc] = worn.corners.map(|v| motion[v as usize]);
             let (e, f, de, df) = (b - a, c - a, db - da, dc - da);
             let linear = e.perp_dot(df) + de.perp_dot(f);
             first_root(de.perp_dot(df), linear, e.perp_dot(f))

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::{Run, Step};
-use crate::fit::FitError;
 use crate::fit::newton::anderson::Anderson;
 use crate::fit::newton::problem::{Model, Place, Solved};
 use crate::fit::newton::{Kept, Solver};
+use crate::fit::{Fit, FitError};
 
 /// A step that promises less than this share of what letting go of the seams has won is the last: some hundredths of it
 /// are left then.
@@ -29,6 +29,13 @@ impl Run<'_> {
     /// Whether the pressures were met when the targets were last corrected.
     pub fn met(&self) -> bool {
         self.threads.met()
+    }
+
+    /// Lays the given triangles the right way round where the fit was made on others.
+    pub fn lay_right(&mut self, fit: &mut Fit) {
+        let triangles = &self.problem.solver.triangles;
+        triangles.lay_right(&mut self.coordinates, self.problem.held());
+        fit.coordinates.clone_from(&self.coordinates);
     }
 
     /// J_E without the condition that sewn edges have equal lengths, in N·mm, where there are any; and what

@@ -80,11 +80,6 @@ impl Triangles {
         first
     }
 
-    /// The corners at a vertex.
-    fn corners_at(&self, v: usize) -> &[u32] {
-        &self.corners[self.starts[v] as usize..self.starts[v + 1] as usize]
-    }
-
     /// The corners of triangles that have changed much, in order.
     fn changed(
         &self,
