@@ -55,7 +55,7 @@ pub struct Targets {
 
 impl Targets {
     /// From threads (from the lowest; their `t` and `fitted` are found here). `row_spacing` in mm is
-    /// the distance of threads below which strains are smoothed.
+    /// the distance of threads below which strains are smoothed; `taut` is whether the function is drawn taut.
     #[must_use]
     pub fn new(
         mut threads: Vec<ThreadTarget>,
@@ -63,6 +63,7 @@ impl Targets {
         extent: [f64; 2],
         max_strain: f64,
         row_spacing: f64,
+        taut: bool,
     ) -> Self {
         let length = (extent[1] - extent[0]).max(f64::MIN_POSITIVE);
         for thread in &mut threads {
@@ -73,7 +74,8 @@ impl Targets {
             .filter_map(|thread| thread.asked.map(|strain| Datum { t: thread.t, strain }))
             .collect();
         let closest = (row_spacing / length).min(0.5);
-        let function = StrainFunction::new(&data, max_strain, closest);
+        let through = if taut { StrainFunction::taut } else { StrainFunction::new };
+        let function = through(&data, max_strain, closest);
         for thread in &mut threads {
             thread.fitted = function.at(thread.t);
         }

@@ -127,7 +127,7 @@ pub fn target_strains(
         })
         .collect();
     let extent = [first, last.max(first + 1)].map(|row| f64::from(row) * spacing);
-    let targets = Targets::new(threads, wishes, extent, fabric.max_strain, row_spacing);
+    let targets = Targets::new(threads, wishes, extent, fabric.max_strain, row_spacing, false);
     let rows = f64::from((last - first).max(1));
     let strains =
         (first..=last).map(|row| targets.function.at(f64::from(row - first) / rows)).collect();

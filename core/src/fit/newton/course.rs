@@ -21,8 +21,8 @@ pub struct Course {
     /// What was wanted of the pressures and missed at the last correction, in kPa², and whether that changed a
     /// target.
     pub missed: Option<(f64, bool)>,
-    /// The least of it while the fabric was at rest, with the targets then.
-    pub best: Option<(f64, Vec<Option<f64>>)>,
+    /// The least of it while the fabric was at rest, with the targets then and whether their function was drawn taut.
+    pub best: Option<(f64, Vec<Option<f64>>, bool)>,
     /// The largest change of a target at the last correction.
     pub last: f64,
     /// A target changes by no more at a time.
@@ -63,15 +63,15 @@ impl Course {
     }
 
     /// Remembers targets with which at rest less is missed than with any before.
-    pub fn remember(&mut self, missed: f64, largest: f64, targets: &[Option<f64>]) {
-        if largest < REST_MM && self.best.as_ref().is_none_or(|(least, _)| missed < *least) {
-            self.best = Some((missed, targets.to_vec()));
+    pub fn remember(&mut self, missed: f64, largest: f64, targets: &[Option<f64>], taut: bool) {
+        if largest < REST_MM && self.best.as_ref().is_none_or(|(least, ..)| missed < *least) {
+            self.best = Some((missed, targets.to_vec(), taut));
         }
     }
 
     /// Whether clearly less was missed before.
     pub fn was_better(&self, missed: f64) -> bool {
-        self.best.as_ref().is_some_and(|(least, _)| *least < GOOD_AS_BEST * missed)
+        self.best.as_ref().is_some_and(|(least, ..)| *least < GOOD_AS_BEST * missed)
     }
 }
 
@@ -86,11 +86,11 @@ mod tests {
             let worse = course.worse(missed, true);
             assert_eq!(worse, missed > 1.0);
             course.adapt(worse);
-            course.remember(missed, 0.05, &[Some(targets)]);
+            course.remember(missed, 0.05, &[Some(targets)], false);
             (course.missed, course.last) = (Some((missed, true)), 0.06);
         }
         assert_eq!(course.reach, 0.03);
-        assert_eq!(course.best, Some((1.0, vec![Some(0.1)])));
+        assert_eq!(course.best, Some((1.0, vec![Some(0.1)], false)));
         assert!(course.was_better(4.0) && !course.was_better(1.2));
         // Nor does it change much on its way, but for the first.
         course.reach = 0.06;
@@ -99,8 +99,8 @@ mod tests {
             [0.06, 0.06, 0.03]
         );
         // Far from rest somewhat more is no bad sign, and nothing is remembered.
-        course.remember(0.1, 5.0, &[Some(0.3)]);
-        assert_eq!(course.best, Some((1.0, vec![Some(0.1)])));
+        course.remember(0.1, 5.0, &[Some(0.3)], true);
+        assert_eq!(course.best, Some((1.0, vec![Some(0.1)], false)));
         course.missed = Some((1.0, true));
         assert!(!course.worse(1.4, false) && course.worse(1.4, true));
     }

@@ -86,6 +86,10 @@ pub struct Threads<'a> {
     lost: bool,
     /// Whether the pressures were met as promised at the last correction.
     met: bool,
+    /// Whether their function is drawn taut.
+    taut: bool,
+    /// Targets that no longer follow the fabric.
+    held: Option<Targets>,
 }
 
 /// Corrections are given up after so many: a pressure that has not come by then does not.
@@ -107,6 +111,8 @@ impl<'a> Threads<'a> {
             course: Course::default(),
             lost: false,
             met: false,
+            taut: false,
+            held: None,
         };
         threads.find(coordinates, None);
         threads
@@ -201,7 +207,7 @@ impl<'a> Threads<'a> {
 
     fn find(&mut self, coordinates: &[DVec2], known: Option<&[Reached]>) {
         let FitInput { annotations, fabric, pressure_model, parameters, .. } = *self.input;
-        if annotations.is_empty() {
+        if annotations.is_empty() || self.held.is_some() {
             return;
         }
         let own;
@@ -268,8 +274,27 @@ impl<'a> Threads<'a> {
         }
     }
 
+    /// Draws their function taut, and begins the corrections anew.
+    pub fn draw_taut(&mut self) {
+        self.taut = true;
+        self.lost = false;
+        self.answers = None;
+        self.course = Course { best: self.course.best.take(), ..Course::default() };
+        self.rounds = self.rounds.min(1);
+    }
+
+    /// Keeps the targets as they are at these pattern coordinates, uncorrected and at their places in the pattern: the
+    /// energy is then that of a fabric alone, and falls to a minimum.
+    pub fn hold(&mut self, coordinates: &[DVec2]) {
+        self.give_up();
+        self.held = Some(self.targets(coordinates));
+    }
+
     /// The targets at these pattern coordinates.
     pub fn targets(&self, coordinates: &[DVec2]) -> Targets {
+        if let Some(held) = &self.held {
+            return held.clone();
+        }
         self.with(coordinates, &self.asked)
     }
 
@@ -300,7 +325,8 @@ impl<'a> Threads<'a> {
             threads[k].y = threads[k].y.max(threads[k - 1].y + apart);
         }
         let wishes = self.wishes.clone();
-        Targets::new(threads, wishes, [low, high], fabric.max_strain, parameters.row_spacing)
+        let (most, near) = (fabric.max_strain, parameters.row_spacing);
+        Targets::new(threads, wishes, [low, high], most, near, self.taut)
     }
 
     /// Pressures with the whole threads' strains, in kPa; of a slack thread less than nothing by what it lacks of
@@ -376,7 +402,7 @@ impl<'a> Threads<'a> {
             return correction;
         }
         self.course.adapt(worse);
-        self.course.remember(missed, largest, &self.asked);
+        self.course.remember(missed, largest, &self.asked, self.taut);
         if self.agree(&got, &counts) {
             self.course.missed = None;
             return correction;
@@ -422,7 +448,10 @@ impl<'a> Threads<'a> {
         let limit = self.input.fabric.max_strain;
         self.lost = true;
         self.asked = match &self.course.best {
-            Some((_, best)) => best.clone(),
+            Some((_, best, taut)) => {
+                self.taut = *taut;
+                best.clone()
+            }
             None => self.wanted.iter().map(|w| w.map(|w| w.clamp(0.0, limit))).collect(),
         };
     }

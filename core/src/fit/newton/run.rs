@@ -15,7 +15,7 @@ use super::element::Order;
 use super::pressures::Threads;
 use super::problem::{Model, Place, Problem, Room, Solved};
 use super::seam::Pull;
-use super::step::{Rest, Step};
+use super::step::{Damping, Rest, Step};
 use super::triangles::{Forces, Turning, Wanted};
 use super::{Below, Earlier, Solver};
 use crate::fit::{Fit, FitError, FitInput, HistoryEntry, Misfit, Stopped};
@@ -37,8 +37,12 @@ const SHRINKS: f64 = 0.5;
 /// second-order part is rarely positive and seldom of use.
 const FAR_MM: f64 = 10.0;
 
-/// After so many tenths of the steps allowed the targets are no longer corrected: the rest is for coming to rest.
-const LATE: u64 = 7;
+/// After so many hundredths of the steps allowed the strain function is drawn taut: a steep one keeps contrary wishes from
+/// coming to rest.
+const TAUT: u64 = 66;
+
+/// After so many the targets are no longer corrected, nor follow the fabric: the rest is for coming to rest.
+const LATE: u64 = 80;
 
 /// After a step no larger than this, in mm, the seams pull along their courses as these turn with the fabric, not along
 /// those of the Hessian.
@@ -86,6 +90,7 @@ pub struct Run<'a> {
     resumed: bool,
     /// Whether the last step was a large one.
     far: bool,
+    damping: Damping,
     /// Whether a step had to be made exact: the last ones are then to be exact, too.
     slow: bool,
     /// Whether the seams pull along their courses here, while the Hessian has those of another place.
@@ -159,6 +164,7 @@ impl<'a> Run<'a> {
             kept: false,
             stale: false,
             far: earlier.is_none(),
+            damping: Damping::default(),
             slow: false,
             follows: false,
             scale,
@@ -196,7 +202,8 @@ impl<'a> Run<'a> {
             );
             let step = self.step(&wanted, &turning)?;
             let before = self.state();
-            let advance = self.advance(&step, &wanted, &turning);
+            let share = if step.is_exact() { self.damping.share(step.largest) } else { 1.0 };
+            let advance = self.advance(&step, share, &wanted, &turning);
             let relaxed = self.relax(&step, &wanted, &turning);
             self.iterations += 1;
             self.last = step.rough;
@@ -210,11 +217,14 @@ impl<'a> Run<'a> {
                 .then(|| self.correction(step.largest));
             let settled = correction.as_ref().map_or(!self.threads.corrects(), |c| c.settled);
             let lost = correction.as_ref().is_some_and(|c| c.lost);
-            let late = self.iterations == parameters.newton_steps * LATE / 10;
-            let uneasy = late && self.threads.corrects() && !settled;
-            if uneasy {
+            let [taut, late] = [TAUT, LATE].map(|share| parameters.newton_steps * share / 100);
+            let moves = self.threads.corrects() && (!settled || step.largest > KEPT_MM);
+            let uneasy = moves && [taut, late].contains(&self.iterations);
+            if uneasy && self.iterations == late {
                 // What threads want of each other may keep the fabric on its way for ever.
-                self.threads.give_up();
+                self.threads.hold(&self.coordinates);
+            } else if uneasy {
+                self.threads.draw_taut();
             }
             if uneasy || correction.as_ref().is_some_and(|c| c.worse) {
                 self.anderson.forget();
@@ -408,11 +418,17 @@ impl<'a> Run<'a> {
         )
     }
 
-    /// Moves the vertices.
-    fn advance(&mut self, step: &Step, wanted: &Wanted, turning: &[Turning]) -> Advance {
+    /// Moves the vertices, by no more than a share of the step.
+    fn advance(
+        &mut self,
+        step: &Step,
+        share: f64,
+        wanted: &Wanted,
+        turning: &[Turning],
+    ) -> Advance {
         let longest = self.problem.solver.triangles.longest_step(&self.coordinates, &step.motion);
         if longest == 1.0 && step.largest < TRUSTED_MM {
-            self.coordinates.iter_mut().zip(&step.motion).for_each(|(p, d)| *p += *d);
+            self.coordinates.iter_mut().zip(&step.motion).for_each(|(p, d)| *p += share * *d);
             return Advance::Trusted;
         }
         self.anderson.forget();
@@ -422,7 +438,7 @@ impl<'a> Run<'a> {
         let value =
             |coordinates: &[DVec2]| self.problem.value(&Place { coordinates, wanted, turning });
         let before = value(&self.coordinates);
-        let mut length = longest;
+        let mut length = longest.min(share);
         for _ in 0..HALVINGS {
             let there = tried(length);
             // Armijo's rule with its usual share.

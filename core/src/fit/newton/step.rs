@@ -8,6 +8,12 @@ const FURTHER: f64 = 2.0;
 /// So many steps within the tolerance, one after the other, are rest whatever the acceleration wants.
 const RESTING: usize = 6;
 
+/// A step larger than this share of the last has not shrunk.
+const STAYS: f64 = 0.7;
+
+/// No less of a step is taken.
+const LEAST_SHARE: f64 = 0.25;
+
 /// A step on trial.
 pub struct Step {
     /// Of every vertex, in mm.
@@ -36,6 +42,31 @@ impl Step {
     /// Whether it was made exact.
     pub fn is_exact(&self) -> bool {
         self.rough != self.largest
+    }
+}
+
+/// How much of exact steps is taken.
+///
+/// They are exact for springs and targets as they stand, which follow the fabric; whole ones can come round in a circle.
+pub struct Damping {
+    share: f64,
+    /// The last of them, in mm.
+    last: f64,
+}
+
+impl Default for Damping {
+    fn default() -> Self {
+        Self { share: 1.0, last: f64::INFINITY }
+    }
+}
+
+impl Damping {
+    /// The share of a step that is taken, given those before.
+    pub fn share(&mut self, largest: f64) -> f64 {
+        let factor = if largest < STAYS * self.last { 2.0 } else { 0.5 };
+        self.share = (factor * self.share).clamp(LEAST_SHARE, 1.0);
+        self.last = largest;
+        self.share
     }
 }
 
@@ -69,6 +100,13 @@ impl Rest {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn exact_steps_that_do_not_shrink_are_taken_by_ever_less() {
+        let mut damping = Damping::default();
+        let shares = [0.6, 0.3, 0.29, 0.31, 0.3, 0.1, 0.02].map(|mm| damping.share(mm));
+        assert_eq!(shares, [1.0, 1.0, 0.5, 0.25, 0.25, 0.5, 1.0]);
+    }
 
     #[test]
     fn rest_comes_with_the_acceleration_or_after_some_steps() {
