@@ -25,6 +25,10 @@ const STIFFNESS_MM: f64 = 25_000.0;
 /// one pressure to another.
 const COURSE_MM: f64 = 20.0;
 
+/// An edge whose direction has less than this of its course's has folded: along the course it would be closed where it
+/// gapes, so it pulls along itself.
+const FOLDED: f64 = 0.5;
+
 /// An edge of a seam and the one sewn to it.
 #[derive(Debug, Clone, Copy)]
 pub struct SewnEdge {
@@ -191,7 +195,8 @@ impl Sewn {
         Courses(rows.collect())
     }
 
-    /// The direction of one side at every edge: that of the chord over [`COURSE_MM`] round it.
+    /// The direction of one side at every edge: that of the chord over [`COURSE_MM`] round it, or of the edge itself where
+    /// it has folded.
     fn directions(
         &self,
         coordinates: &[DVec2],
@@ -211,10 +216,10 @@ impl Sewn {
                 let to =
                     along[k + 1..].partition_point(|&s| s <= middle + 0.5 * COURSE_MM).max(1) + k;
                 let chord = coordinates[side(&run[to - 1])[1]] - coordinates[side(&run[from])[0]];
-                let own = side(&run[k]);
-                directions[at + k] = chord.try_normalize().unwrap_or_else(|| {
-                    (coordinates[own[1]] - coordinates[own[0]]).normalize_or_zero()
-                });
+                let [a, b] = side(&run[k]);
+                let own = (coordinates[b] - coordinates[a]).normalize_or_zero();
+                let course = chord.normalize_or_zero();
+                directions[at + k] = if course.dot(own) < FOLDED { own } else { course };
             }
             at += run.len();
         }
@@ -272,5 +277,42 @@ impl Courses {
     /// One row for each clique.
     pub fn rows(&self) -> &[Vec<f64>] {
         &self.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::surface::VertexId;
+
+    #[test]
+    fn an_edge_that_has_folded_is_closed_along_itself() {
+        // Two rows of four squares 2 mm wide; the outer rows are sewn together.
+        let id = |i: usize, j: usize| VertexId::new(5 * i + j);
+        let at = |v: usize| DVec2::new(2.0 * (v / 5) as f64, 2.0 * (v % 5) as f64);
+        let points = (0..15).map(|v| at(v).extend(0.0)).collect();
+        let cells = (0..2).flat_map(|i| (0..4).map(move |j| (i, j)));
+        let triangles = cells.flat_map(|(i, j)| {
+            let [a, b, c, d] = [id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)];
+            [[a, b, c], [a, c, d]]
+        });
+        let disk = Surface::new(points, triangles.collect()).unwrap();
+        let side = |i: usize| (0..5).map(|j| id(i, j)).collect();
+        let sewn = Sewn::new(&disk, &[Seam { left: side(0), right: side(2) }]);
+        let straight: Vec<DVec2> = (0..15).map(at).collect();
+        let mut folded = straight.clone();
+        // The left side's third vertex lies below its second.
+        folded[2] = DVec2::new(0.5, 1.0);
+        for coordinates in [straight, folded] {
+            let courses = sewn.courses(&coordinates);
+            // Its second edge, by what the vertex alone moves.
+            let (edge, row, clique) = (&sewn.edges[1], &courses.0[1], &sewn.cliques[1]);
+            let own = coordinates[edge.left[1]] - coordinates[edge.left[0]];
+            let mut motion = vec![DVec2::ZERO; 15];
+            motion[2] = 1e-4 * own.normalize();
+            let there: Vec<DVec2> = coordinates.iter().zip(&motion).map(|(&p, &d)| p + d).collect();
+            let longer = Sewn::mismatch(edge, &there) - Sewn::mismatch(edge, &coordinates);
+            assert!((closed(row, clique, &motion) / longer - 1.0).abs() < 1e-3, "{own}");
+        }
     }
 }
